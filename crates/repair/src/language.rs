@@ -41,6 +41,38 @@ impl Language {
     }
 }
 
+/// How tightly the parts of an expression hold together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Binding {
+    Sum,
+    Product,
+    Name,
+}
+
+/// An expression, and how tightly it binds.
+pub struct Expression {
+    pub text: String,
+    pub binding: Binding,
+}
+
+impl Expression {
+    pub fn sum(text: String) -> Expression {
+        let binding = Binding::Sum;
+        Expression { text, binding }
+    }
+
+    pub fn product(text: String) -> Expression {
+        let binding = Binding::Product;
+        Expression { text, binding }
+    }
+
+    /// A name, a literal or a call.
+    pub fn name(text: String) -> Expression {
+        let binding = Binding::Name;
+        Expression { text, binding }
+    }
+}
+
 /// A language, and the scalar of a kernel in it.
 #[derive(Clone, Copy)]
 pub struct Dialect {
@@ -90,13 +122,13 @@ impl Dialect {
         }
     }
 
-    /// A sum or a difference with an input among its terms, and how tightly it binds. C has functions for it, which a product
-    /// that the caller passes is not fused into.
-    pub fn sum_of_input(self, sign: &str, [x, y]: [&str; 2]) -> (String, u8) {
+    /// A sum or a difference with an input among its terms. C has functions for it, which a product that the caller passes
+    /// is not fused into.
+    pub fn sum_of_input(self, sign: &str, [x, y]: [&str; 2]) -> Expression {
         let name = if sign == "+" { "sum" } else { "difference" };
         match self.language {
-            C | Cuda => (format!("{}({x}, {y})", self.function(name)), 2),
-            _ => (format!("{x} {sign} {y}"), 0),
+            C | Cuda => Expression::name(format!("{}({x}, {y})", self.function(name))),
+            _ => Expression::sum(format!("{x} {sign} {y}")),
         }
     }
 
