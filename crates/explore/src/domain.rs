@@ -114,7 +114,8 @@ fn is_healthy<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, [far, share]: [V:
     least_d.is_at_most(&d_squared) && V::Real::zero().is_less(&d_squared)
 }
 
-fn larger<R: Real>(x: R, y: R) -> R {
+/// The larger of two numbers; the first if one is NaN.
+pub(super) fn larger<R: Real>(x: R, y: R) -> R {
     if x.is_less(&y) { y } else { x }
 }
 
