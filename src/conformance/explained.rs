@@ -15,13 +15,12 @@ pub const VARIABLE: &str = "HAIRLINE_CASE";
 /// The explanation of the case that the environment names, or what is wrong with it; none if it names none.
 pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, Error>) -> Option<String> {
     let case = std::env::var(VARIABLE).ok()?;
-    Some(match rows() {
-        Ok(rows) => {
-            let text = explained(&rows, &case);
-            text.unwrap_or_else(|error| format!("{VARIABLE}: {error}"))
-        }
-        Err(error) => error.to_string(),
-    })
+    let rows = match rows() {
+        Ok(rows) => rows,
+        Err(error) => return Some(error.to_string()),
+    };
+    let text = explained(&rows, &case);
+    Some(text.unwrap_or_else(|error| format!("{VARIABLE}: {error}")))
 }
 
 /// The explanation of a case as text. An error says what is wrong with its name.

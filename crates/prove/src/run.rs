@@ -79,7 +79,7 @@ pub fn cone(operations: &[Operation], last: Place) -> Cone {
 
 /// The numbers that a number is made of, and itself.
 pub fn parts(operations: &[Operation], place: Place) -> Vec<Place> {
-    let Cone { places, .. } = cone(operations, place);
+    let places = cone(operations, place).places;
     let is_part = |part: &Place| places[*part as usize].is_some();
     (0..=place).filter(is_part).collect()
 }

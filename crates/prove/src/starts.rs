@@ -33,18 +33,35 @@ impl<F: Searched> Search<'_, F> {
         let scene = measures.scene;
         let near = vector(draw, |draw| near_either_end(scene.coordinates, draw));
         let a = near * power_of_half(4, draw);
-        let axes = Axes::drawn(draw);
+        // Unit vectors along the first edge, across it in the triangle's plane, and along the normal.
+        let along = anywhere(draw).normalize_or_zero();
+        let other = anywhere(draw);
+        let normal = along.cross(other).normalize_or_zero();
+        let across = normal.cross(along);
         let longest = measures.longest.to_f64();
         let size = slightly_less(longest.min(scene.edge[1]), 8, draw);
-        let e1 = size * axes.along;
-        let e2 = axes.second_edge(size, scene.min_angle.to_radians(), draw);
-        let direction = axes.direction(measures.sine.to_f64(), draw);
+        let least_angle = scene.min_angle.to_radians();
+        let at_a = cotangent_of_angle(least_angle, draw);
+        let at_b = cotangent_of_angle(least_angle, draw);
+        // The second edge ends above the foot of the height.
+        let height = size / (at_a + at_b);
+        let e1 = size * along;
+        let foot = height * at_a * along;
+        let e2 = foot + height * across;
+        let sine = if draw.below(4) == 0 {
+            draw.unit()
+        } else {
+            slightly_more(measures.sine.to_f64(), draw).min(1.0)
+        };
+        let ahead = along * symmetric(draw);
+        let aside = across * symmetric(draw);
+        let in_plane = (ahead + aside).normalize_or_zero();
+        let cosine = (1.0 - sine * sine).sqrt();
+        let direction = in_plane * cosine + normal * sine;
         let u = draw.unit();
         let v = draw.unit();
-        let of_e1 = e1 * (u * (1.0 - v));
-        let target = a + of_e1 + e2 * v;
-        let half = scene.distance / 2.0;
-        let farthest = half.max(scene.distance - size);
+        let target = a + e1 * (u * (1.0 - v)) + e2 * v;
+        let farthest = (scene.distance / 2.0).max(scene.distance - size);
         let distance = near_either_end(farthest, draw).abs();
         let origin = target - direction * distance;
         self.inputs_of([origin, direction, a, a + e1, a + e2])
@@ -98,12 +115,11 @@ impl<F: Searched> Search<'_, F> {
         let reach = domain.reach.to_f64();
         let world = domain.world.to_f64();
         let scale = power_of_half(30, draw);
-        let lemma = if draw.coin() {
-            self.quantity.lemmas.last()
-        } else {
-            None
+        let is_at_corner = draw.coin();
+        let lemma = self.quantity.lemmas.last();
+        let corner = Corner {
+            lemma: lemma.filter(|_| is_at_corner),
         };
-        let corner = Corner { lemma };
         let mut inputs = [0.0; 17];
         for axis in 0..3 {
             let a = world * symmetric(draw) * scale;
@@ -134,49 +150,6 @@ impl<F: Searched> Search<'_, F> {
         inputs[15] = size_within(extent, draw);
         inputs[16] = size_within(extent, draw);
         inputs.map(F::from_f64)
-    }
-}
-
-/// Unit vectors along the first edge of a triangle, across it in the triangle's plane, and along its normal.
-struct Axes {
-    along: DVec3,
-    across: DVec3,
-    normal: DVec3,
-}
-
-impl Axes {
-    fn drawn(draw: &mut Draw) -> Axes {
-        let along = anywhere(draw).normalize_or_zero();
-        let other = anywhere(draw);
-        let normal = along.cross(other).normalize_or_zero();
-        Axes {
-            along,
-            across: normal.cross(along),
-            normal,
-        }
-    }
-
-    /// The edge from a to c of a triangle whose edge from a to b has this size.
-    fn second_edge(&self, size: f64, least_angle: f64, draw: &mut Draw) -> DVec3 {
-        let at_a = cotangent_of_angle(least_angle, draw);
-        let at_b = cotangent_of_angle(least_angle, draw);
-        let height = size / (at_a + at_b);
-        let foot = height * at_a * self.along;
-        foot + height * self.across
-    }
-
-    /// The direction of a ray, often at an angle to the plane with slightly more than the least sine.
-    fn direction(&self, least_sine: f64, draw: &mut Draw) -> DVec3 {
-        let sine = if draw.below(4) == 0 {
-            draw.unit()
-        } else {
-            slightly_more(least_sine, draw).min(1.0)
-        };
-        let ahead = self.along * symmetric(draw);
-        let aside = self.across * symmetric(draw);
-        let in_plane = (ahead + aside).normalize_or_zero();
-        let cosine = (1.0 - sine * sine).sqrt();
-        in_plane * cosine + self.normal * sine
     }
 }
 

@@ -19,12 +19,9 @@ impl<'a> Code<'a> {
     /// The lines of a guarded kernel's body.
     pub fn body(guarded: &'a Guarded, dialect: Dialect) -> Vec<String> {
         let steps = guarded.steps.all();
-        let mut roots = Vec::new();
-        for step in &steps {
-            roots.extend(roots_of(step, guarded));
-        }
+        let roots = steps.iter().flat_map(|step| roots_of(step, guarded));
         let mut code = Code {
-            nodes: Nodes::new(guarded, dialect, roots),
+            nodes: Nodes::new(guarded, dialect, roots.collect()),
             guarded,
             dialect,
             lines: Vec::new(),
@@ -43,9 +40,11 @@ impl<'a> Code<'a> {
         self.lines.push(indent + text.as_ref());
     }
 
-    fn indented(&mut self, body: impl FnOnce(&mut Self)) {
+    /// The head of a block, and a step inside it.
+    fn block(&mut self, head: impl AsRef<str>, step: &Step, scope: &Scope) {
+        self.line(head);
         self.depth += 1;
-        body(self);
+        self.step(step, scope.clone());
         self.depth -= 1;
     }
 
@@ -128,22 +127,18 @@ impl<'a> Code<'a> {
         match step {
             Step::Choice(comparison, yes, no) => {
                 let condition = self.comparison(comparison, &mut scope);
-                self.line(self.dialect.if_(&condition));
-                self.indented(|code| code.step(yes, scope.clone()));
-                self.line("} else {");
-                self.indented(|code| code.step(no, scope));
+                self.block(self.dialect.if_(&condition), yes, &scope);
+                self.block("} else {", no, &scope);
                 self.line("}");
             }
             Step::Sign(literal, yes, no) => {
                 self.signs(&[literal], &mut scope);
                 let holds = self.conditions(literal).join(" && ");
                 let opposite = self.conditions(&literal.negated()).join(" && ");
-                self.line(self.dialect.if_(&holds));
-                self.indented(|code| code.step(yes, scope.clone()));
-                self.line(format!("}} else {}", self.dialect.if_(&opposite)));
-                self.indented(|code| code.step(no, scope.clone()));
-                self.line("} else {");
-                self.indented(|code| code.step(&Step::Ask, scope));
+                let or_else = format!("}} else {}", self.dialect.if_(&opposite));
+                self.block(self.dialect.if_(&holds), yes, &scope);
+                self.block(or_else, no, &scope);
+                self.block("} else {", &Step::Ask, &scope);
                 self.line("}");
             }
             Step::Gate(gate, [hits, misses], next) => {
@@ -234,9 +229,13 @@ impl<'a> Code<'a> {
             Axes::If(comparison, yes, no) => {
                 let condition = self.comparison(comparison, scope);
                 self.line(self.dialect.if_(&condition));
-                self.indented(|code| code.axes(yes, scope));
+                self.depth += 1;
+                self.axes(yes, scope);
+                self.depth -= 1;
                 self.line("} else {");
-                self.indented(|code| code.axes(no, scope));
+                self.depth += 1;
+                self.axes(no, scope);
+                self.depth -= 1;
                 self.line("}");
             }
         }

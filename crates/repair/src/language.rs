@@ -41,35 +41,21 @@ impl Language {
     }
 }
 
-/// How tightly the parts of an expression hold together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Binding {
-    Sum,
-    Product,
-    Name,
-}
-
-/// An expression, and how tightly it binds.
-pub struct Expression {
-    pub text: String,
-    pub binding: Binding,
+/// An expression, by how tightly it binds.
+pub enum Expression {
+    /// A sum or a difference.
+    Sum(String),
+    /// A product, a quotient or a negative number.
+    Product(String),
+    /// A name, a literal or a call.
+    Name(String),
 }
 
 impl Expression {
-    pub fn sum(text: String) -> Expression {
-        let binding = Binding::Sum;
-        Expression { text, binding }
-    }
-
-    pub fn product(text: String) -> Expression {
-        let binding = Binding::Product;
-        Expression { text, binding }
-    }
-
-    /// A name, a literal or a call.
-    pub fn name(text: String) -> Expression {
-        let binding = Binding::Name;
-        Expression { text, binding }
+    pub fn text(self) -> String {
+        match self {
+            Expression::Sum(text) | Expression::Product(text) | Expression::Name(text) => text,
+        }
     }
 }
 
@@ -127,8 +113,8 @@ impl Dialect {
     pub fn sum_of_input(self, sign: &str, [x, y]: [&str; 2]) -> Expression {
         let name = if sign == "+" { "sum" } else { "difference" };
         match self.language {
-            C | Cuda => Expression::name(format!("{}({x}, {y})", self.function(name))),
-            _ => Expression::sum(format!("{x} {sign} {y}")),
+            C | Cuda => Expression::Name(format!("{}({x}, {y})", self.function(name))),
+            _ => Expression::Sum(format!("{x} {sign} {y}")),
         }
     }
 

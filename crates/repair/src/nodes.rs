@@ -2,7 +2,7 @@
 
 use crate::arith::Vector;
 use crate::arith::recorded::{Operation, Place};
-use crate::language::{Binding, Dialect, Expression};
+use crate::language::{Dialect, Expression};
 use crate::prove::repair::Guarded;
 use crate::prove::{Leaf, Sample, run};
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -71,7 +71,7 @@ impl<'a> Nodes<'a> {
 
     /// A node as it stands in an expression: its name, or the expression that it is.
     pub fn text(&self, node: Node) -> String {
-        self.whole(node).text
+        self.whole(node).text()
     }
 
     /// The name of a number, inputs included.
@@ -145,17 +145,23 @@ impl<'a> Nodes<'a> {
         if self.is_inline(node) {
             self.expression(node)
         } else {
-            Expression::name(self.name(node))
+            Expression::Name(self.name(node))
         }
     }
 
-    /// A node as an operand, in brackets if it binds less tightly than the operation.
-    fn operand(&self, node: Node, least: Binding) -> String {
-        let Expression { text, binding } = self.whole(node);
-        if binding < least {
-            format!("({text})")
-        } else {
-            text
+    /// A node as a factor: a sum in brackets.
+    fn factor(&self, node: Node) -> String {
+        match self.whole(node) {
+            Expression::Sum(text) => format!("({text})"),
+            whole => whole.text(),
+        }
+    }
+
+    /// A node behind a sign that takes only what is nearest: all but a name in brackets.
+    fn nearest(&self, node: Node) -> String {
+        match self.whole(node) {
+            Expression::Name(text) => text,
+            whole => format!("({})", whole.text()),
         }
     }
 
@@ -167,7 +173,7 @@ impl<'a> Nodes<'a> {
                 has_slack: true,
             } => self.with_slack(place),
             Node::Size { place, .. } if self.guarded.is_leaf(place) => {
-                Expression::name(self.leaf_size(place))
+                Expression::Name(self.leaf_size(place))
             }
             _ => self.result(node),
         }
@@ -190,7 +196,7 @@ impl<'a> Nodes<'a> {
         if self.is_input(place) {
             return self.dialect.sum_of_input("+", [&size, "SLACK"]);
         }
-        Expression::sum(format!("{size} + SLACK"))
+        Expression::Sum(format!("{size} + SLACK"))
     }
 
     /// The expression of an operation on its operands' values, or of its size from their sizes.
@@ -198,8 +204,8 @@ impl<'a> Nodes<'a> {
         let is_size = matches!(node, Node::Size { .. });
         let part = |place: Place| self.part(node, place);
         match self.operation(node.place()) {
-            Operation::Input(i) => Expression::name(self.input(i)),
-            Operation::Number(x) => Expression::name(self.dialect.number(x.into())),
+            Operation::Input(i) => Expression::Name(self.input(i)),
+            Operation::Number(x) => Expression::Name(self.dialect.number(x.into())),
             Operation::Add(a, b) => self.sum(node, "+", [a, b]),
             Operation::Sub(a, b) if is_size => self.sum(node, "+", [a, b]),
             Operation::Sub(a, b) => self.sum(node, "-", [a, b]),
@@ -207,11 +213,11 @@ impl<'a> Nodes<'a> {
             Operation::Div(a, b) => self.product(part(a), "/", part(b)),
             Operation::Neg(a) | Operation::Abs(a) if is_size => self.whole(part(a)),
             Operation::Neg(a) => {
-                let negated = self.operand(part(a), Binding::Name);
-                Expression::product(format!("-{negated}"))
+                let negated = self.nearest(part(a));
+                Expression::Product(format!("-{negated}"))
             }
-            Operation::Abs(a) => Expression::name(self.dialect.abs(&self.text(part(a)))),
-            Operation::Sqrt(a) => Expression::name(self.dialect.sqrt(&self.text(part(a)))),
+            Operation::Abs(a) => Expression::Name(self.dialect.abs(&self.text(part(a)))),
+            Operation::Sqrt(a) => Expression::Name(self.dialect.sqrt(&self.text(part(a)))),
             Operation::Fma(..) | Operation::Minor(..) => {
                 unreachable!("kernels that fuse are refused")
             }
@@ -222,18 +228,18 @@ impl<'a> Nodes<'a> {
     fn sum(&self, whole: Node, sign: &str, terms: [Place; 2]) -> Expression {
         let [x, y] = terms.map(|term| self.part(whole, term));
         let x = self.text(x);
-        let y = self.operand(y, Binding::Product);
+        let y = self.factor(y);
         if terms.iter().any(|term| self.is_input(*term)) {
             return self.dialect.sum_of_input(sign, [&x, &y]);
         }
-        Expression::sum(format!("{x} {sign} {y}"))
+        Expression::Sum(format!("{x} {sign} {y}"))
     }
 
     /// A product or a quotient.
     fn product(&self, a: Node, sign: &str, b: Node) -> Expression {
-        let a = self.operand(a, Binding::Product);
-        let b = self.operand(b, Binding::Name);
-        Expression::product(format!("{a} {sign} {b}"))
+        let a = self.factor(a);
+        let b = self.nearest(b);
+        Expression::Product(format!("{a} {sign} {b}"))
     }
 
     fn input(&self, i: u8) -> String {
@@ -262,16 +268,14 @@ impl<'a> Nodes<'a> {
             has_slack: true,
         };
         // Of two sizes of one number the one without slack is a sum's.
-        if !has_slack && self.uses.contains_key(&with_slack) {
-            format!("size_sum_{name}")
-        } else {
-            format!("size_{name}")
-        }
+        let is_of_sum = !has_slack && self.uses.contains_key(&with_slack);
+        let size = if is_of_sum { "size_sum" } else { "size" };
+        format!("{size}_{name}")
     }
 
     /// Defines some nodes and all that they need, as far as the scope does not know them.
     pub fn define(&self, nodes: &[Node], scope: &mut Scope) -> Vec<String> {
-        let mut open: Vec<Node> = nodes.to_vec();
+        let mut open = nodes.to_vec();
         let mut needed = BTreeSet::new();
         while let Some(node) = open.pop() {
             if !scope.nodes.contains(&node) && needed.insert(node) {
@@ -288,11 +292,13 @@ impl<'a> Nodes<'a> {
     /// vector stand together.
     fn order(&self, node: Node) -> (bool, bool, String, Node) {
         let is_size = matches!(node, Node::Size { .. });
-        if self.guarded.is_leaf(node.place()) {
-            (is_size, false, self.name(node), node)
+        let is_leaf = self.guarded.is_leaf(node.place());
+        let name = if is_leaf {
+            self.name(node)
         } else {
-            (is_size, true, String::new(), node)
-        }
+            String::new()
+        };
+        (is_size, !is_leaf, name, node)
     }
 
     /// The definitions of nodes that are not inline, the coordinates of a vector on one line.
@@ -304,7 +310,7 @@ impl<'a> Nodes<'a> {
                 continue;
             }
             let name = self.name(*node);
-            let text = self.expression(*node).text;
+            let text = self.expression(*node).text();
             if !fits(&group, &name, &text) {
                 lines.push(self.dialect.definitions(&group));
                 group.clear();
@@ -391,28 +397,16 @@ fn cross(operations: &[Operation], operation: &Operation, names: &[String]) -> O
     let Operation::Sub(p, q) = *operation else {
         return None;
     };
-    let minuend = factors(operations, p, names)?;
-    let subtrahend = factors(operations, q, names)?;
-    let [(v, j), (w, k)] = &minuend;
-    let with_other_axes = [(v.clone(), *k), (w.clone(), *j)];
-    let [x, y] = subtrahend;
-    let is_minor = with_other_axes == [x.clone(), y.clone()] || with_other_axes == [y, x];
-    (is_minor && (j + 1) % 3 == *k).then(|| format!("{v}_{w}_{}", AXES[(k + 1) % 3]))
-}
-
-/// The two named coordinates whose product a number is.
-fn factors(
-    operations: &[Operation],
-    place: Place,
-    names: &[String],
-) -> Option<[(String, usize); 2]> {
-    let Operation::Mul(a, b) = operations[place as usize] else {
+    let products = [p, q].map(|place| operations[place as usize]);
+    let [Operation::Mul(a, b), Operation::Mul(c, d)] = products else {
         return None;
     };
-    Some([
-        coordinate(operations, a, names)?,
-        coordinate(operations, b, names)?,
-    ])
+    let named = |place| coordinate(operations, place, names);
+    let ((v, j), (w, k)) = (named(a)?, named(b)?);
+    let (x, y) = (named(c)?, named(d)?);
+    let exchanged = [(v.clone(), k), (w.clone(), j)];
+    let is_minor = exchanged == [x.clone(), y.clone()] || exchanged == [y, x];
+    (is_minor && (j + 1) % 3 == k).then(|| format!("{v}_{w}_{}", AXES[(k + 1) % 3]))
 }
 
 /// The vector's name and the axis, if a number is named as a coordinate.

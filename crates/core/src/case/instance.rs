@@ -23,9 +23,9 @@ impl<F: Float> Instance<F> {
         let adjugate = [cross(y, z), cross(z, x), cross(x, y)];
         let scale = F::one() / dot(x, adjugate[0]);
         let inverse = adjugate.map(|row| {
-            let row = row.map(|number| number * scale);
-            let [a, b, c] = row;
-            [a, b, c, -dot(row, translation)]
+            let [a, b, c] = row.map(|number| number * scale);
+            let moved_back = -dot([a, b, c], translation);
+            [a, b, c, moved_back]
         });
         is_finite(&inverse).then_some(Instance { matrix, inverse })
     }

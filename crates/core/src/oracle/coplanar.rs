@@ -17,7 +17,7 @@ pub(super) fn coplanar_contact<W: Width>(
     let k = across.expect("a triangle with area");
     let along = direction.iter().position(|x| *x != 0);
     let m = along.expect("a direction that is not zero");
-    // The side of the line that a vertex is on: component k of direction × vertex, where no other side vanishes.
+    // The side of the line that a vertex is on: component k of direction × vertex, a vector along the normal.
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let sides = vertices.map(|v| W::product(direction[i], v[j]) - W::product(direction[j], v[i]));
     let [a, b, c] = sides.map(|side| digit(side.sign()));
