@@ -6,11 +6,12 @@ use super::flags::{matrix, placed};
 use super::output::OutputArguments;
 use super::select::KernelArguments;
 use crate::arith::Float;
+use crate::case::Instance;
 use crate::report::Format;
 use crate::report::explain::{Together, explain};
 use clap::Args;
 
-/// Which case, and which kernels.
+/// The flags of the command.
 #[derive(Args)]
 pub struct ExplainArguments {
     #[command(flatten)]
@@ -33,21 +34,32 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
     let pairs = arguments.output.pairs(Format::OF_PAGE)?;
     let rows = arguments.kernels.rows()?;
     let cases = arguments.case.cases_and_instances()?;
-    let name = &arguments.case.case;
-    rows.iter()
-        .try_for_each(|row| row.check_in(cases.scalars()))?;
+    for row in &rows {
+        row.check_in(cases.scalars())?;
+    }
     let record = either_scalar!(&cases, group => {
-        // As a run reads it, whose numbers are doubles at first.
-        let narrow = |text| placed(matrix(text)?.map(|row| row.map(Float::from_f64)));
-        let given = arguments.instance.as_deref().map(narrow).transpose()?;
+        let given = instance_of(arguments)?;
         if given.is_some() && group.instance.is_some() {
             return Err(Failure::usage("--instance: the case's id has an instance of its own"));
         }
-        let (cases, neighbours) = (&group.cases[..], group.neighbours.as_deref());
-        let instance = given.as_ref().or(group.instance.as_ref());
-        let group = Together { cases, grouping: group.grouping, neighbours, instance };
-        explain(name, group, &rows)
+        let together = Together {
+            cases: &group.cases,
+            grouping: group.grouping,
+            neighbours: group.neighbours.as_deref(),
+            instance: given.as_ref().or(group.instance.as_ref()),
+        };
+        explain(&arguments.case.case, together, &rows)
     });
     arguments.output.write(pairs, &record)?;
     Ok(Status::Success)
+}
+
+/// The instance of `--instance`, if it is given.
+fn instance_of<F: Float>(arguments: &ExplainArguments) -> Result<Option<Instance<F>>, Failure> {
+    let Some(text) = &arguments.instance else {
+        return Ok(None);
+    };
+    // A run reads doubles at first too, so both have the same numbers.
+    let wide = matrix(text)?;
+    placed(wide.map(|row| row.map(F::from_f64))).map(Some)
 }

@@ -55,14 +55,10 @@ impl<'a> RecordText<'a> {
             study: Option<Study>,
         }
         let text = read_text(path, SizeLimit::RECORD)?;
-        let envelope: Envelope = serde_json::from_str(&text)
-            .map_err(|error| InputError::at(path, error.line(), error.to_string()))?;
-        match envelope {
-            Envelope {
-                schema,
-                study: Some(study),
-            } if schema == SCHEMA => Ok(RecordText { path, text, study }),
-            Envelope { schema, .. } => {
+        let Envelope { schema, study } = from_json(path, &text)?;
+        match study {
+            Some(study) if schema == SCHEMA => Ok(RecordText { path, text, study }),
+            _ => {
                 let message = format!("a record of schema '{schema}', expected '{SCHEMA}'");
                 Err(InputError::of(path, message).into())
             }
@@ -72,18 +68,23 @@ impl<'a> RecordText<'a> {
     /// Reads it, if it is of a study.
     pub fn read<R: Findings>(self) -> Result<Record<R>, Failure> {
         let RecordText { path, text, study } = self;
-        let wrong = |message: String| Failure::from(InputError::of(path, message));
-        if study != R::STUDY {
-            let expected = R::STUDY;
-            return Err(wrong(format!(
-                "a record of `hairline {study}`, expected one of `hairline {expected}`"
-            )));
+        let wrong = |message: String| InputError::of(path, message);
+        let expected = R::STUDY;
+        if study != expected {
+            let message =
+                format!("a record of `hairline {study}`, expected one of `hairline {expected}`");
+            return Err(wrong(message).into());
         }
-        let record: Record<R> = serde_json::from_str(&text)
-            .map_err(|error| InputError::at(path, error.line(), error.to_string()))?;
+        let record: Record<R> = from_json(path, &text)?;
         record.check().map_err(wrong)?;
         Ok(record)
     }
+}
+
+/// A value of a file's JSON. An error has its line.
+fn from_json<'a, T: Deserialize<'a>>(path: &str, text: &'a str) -> Result<T, InputError> {
+    serde_json::from_str(text)
+        .map_err(|error| InputError::at(path, error.line(), error.to_string()))
 }
 
 /// Reads the record of an audit.
@@ -96,25 +97,24 @@ pub fn read_mesh(path: &str, quiet: bool) -> Result<Mesh, Failure> {
     let size = fs::metadata(path).map_or(0, |metadata| metadata.len());
     let progress = Progress::new(size, "bytes", quiet || size < 1 << 24);
     let file = BufReader::new(open(path)?);
-    let mut beside = |name: &str, most: u64| {
+    let mut file_beside = |name: &str, most: u64| {
+        let file = named_file::open(&Path::new(path).with_file_name(name))?;
         let mut bytes = Vec::new();
-        let path = Path::new(path).with_file_name(name);
-        named_file::open(&path)?
-            .take(most)
-            .read_to_end(&mut bytes)
-            .map(|_| bytes)
+        file.take(most).read_to_end(&mut bytes)?;
+        Ok(bytes)
     };
-    let mesh = mesh::read(file, path, &mut beside, &mut |bytes| progress.set(bytes));
+    let mut advance = |bytes| progress.set(bytes);
+    let read = mesh::read(file, path, &mut file_beside, &mut advance);
     progress.finish();
-    let mesh = mesh?;
+    let mesh = read?;
     if !quiet {
         let triangles = number_of(mesh.triangles.len() as u64, "triangle", "triangles");
         let vertices = number_of(mesh.positions_f64.len() as u64, "vertex", "vertices");
         let groups = number_of(mesh.groups as u64, "group", "groups");
         eprintln!("{path}: {triangles}, {vertices}, {groups}");
-        mesh.notes
-            .iter()
-            .for_each(|note| eprintln!("{path}: {note}"));
+        for note in &mesh.notes {
+            eprintln!("{path}: {note}");
+        }
     }
     Ok(mesh)
 }
@@ -128,86 +128,96 @@ pub fn corpus_files(path: &str) -> Result<Vec<String>, Failure> {
         flag if flag.starts_with('-') => format!("./{flag}"),
         path => path.to_owned(),
     };
-    if !fs::metadata(&path)
-        .map_err(|error| Failure::of_file(&path, &error))?
-        .is_dir()
-    {
+    let metadata = fs::metadata(&path).map_err(|error| Failure::of_file(&path, &error))?;
+    if !metadata.is_dir() {
         return Ok(vec![path]);
     }
-    let mut files = files_under(Path::new(&path), |_| false)?;
-    files.retain(|file| {
-        file.extension()
-            .is_some_and(|extension| extension == "jsonl")
-            && file.file_name().is_some_and(|name| name != MANIFEST)
-    });
-    if files.is_empty() {
+    let mut names = Vec::new();
+    for file in files_under(Path::new(&path), |_| false)? {
+        let is_manifest = file.file_name().is_some_and(|name| name == MANIFEST);
+        let has_cases = file.extension().is_some_and(|end| end == "jsonl");
+        if is_manifest || !has_cases {
+            continue;
+        }
+        let Some(name) = file.to_str() else {
+            let shown = file.display().to_string();
+            return Err(InputError::of(&shown, "its name is not UTF-8").into());
+        };
+        names.push(name.to_owned());
+    }
+    if names.is_empty() {
         return Err(Failure::nothing(format!("{path}: no .jsonl files in it")));
     }
-    let name = |file: PathBuf| match file.to_str() {
-        Some(name) => Ok(name.to_owned()),
-        None => Err(InputError::of(&file.display().to_string(), "its name is not UTF-8").into()),
-    };
-    files.into_iter().map(name).collect()
+    Ok(names)
 }
 
 /// The files in a folder and its subfolders, each file once whatever links lead to it, in the
 /// order of their names. A folder that is `whole` is taken as a file.
 pub fn files_under(root: &Path, whole: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf>, Failure> {
-    let (mut files, mut seen) = (Vec::new(), HashSet::new());
-    // Links wait, so that a file goes by its own name if it has one here.
-    let (mut waiting, mut links) = (vec![root.to_owned()], Vec::new());
+    let mut files = Vec::new();
+    let mut seen = HashSet::new();
+    let mut waiting = vec![root.to_owned()];
+    // Links are followed last, so that a file goes by its own name if it has one here.
+    let mut links = Vec::new();
     while let Some(path) = waiting.pop().or_else(|| links.pop()) {
-        let failed = |error: io::Error| Failure::of_path(&path, &error);
         // A link that leads nowhere is an error once it is read.
-        if !seen.insert(fs::canonicalize(&path).unwrap_or_else(|_| path.clone())) {
+        let real = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+        if !seen.insert(real) {
             continue;
         }
         if !path.is_dir() || whole(&path) {
             files.push(path);
             continue;
         }
-        let entries = fs::read_dir(&path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
-        let mut inside: Vec<PathBuf> = entries
-            .map_err(failed)?
-            .into_iter()
-            .map(|entry| entry.path())
-            .collect();
+        let mut inside = paths_in(&path).map_err(|error| Failure::of_path(&path, &error))?;
         inside.sort();
-        let (linked, real) = inside.into_iter().rev().partition(|path| path.is_symlink());
-        links.extend::<Vec<_>>(linked);
-        waiting.extend::<Vec<_>>(real);
+        for path in inside.into_iter().rev() {
+            if path.is_symlink() {
+                links.push(path);
+            } else {
+                waiting.push(path);
+            }
+        }
     }
     files.sort();
     Ok(files)
+}
+
+fn paths_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder)?;
+    entries.map(|entry| Ok(entry?.path())).collect()
 }
 
 /// The cases of a corpus file. A stored truth that is wrong is an error with its line, and so is a
 /// second case of a name.
 pub fn read_corpus(file: &str) -> Result<Vec<StoredCase>, Failure> {
     let mut lines_of_names = HashMap::new();
-    lines::read(BufReader::new(open(file)?), file)
-        .map(|stored| {
-            let stored = stored?;
-            if let Some(first) = lines_of_names.insert(name_of(&stored), stored.line) {
-                let message = format!(
-                    "a second case called '{}', as that of line {first} is{}: give each a name of its own",
-                    name_of(&stored),
-                    if stored.name.is_none() { " (a case without a name is called line-N)" } else { "" }
-                );
-                return Err(InputError::at(file, stored.line, message));
-            }
-            if let Some(truth) = &stored.truth {
-                let line = stored.truth_line(truth.has_fractions());
-                truth.check(&line).map_err(|message| InputError::at(file, stored.line, message))?;
-            }
-            Ok(stored)
-        })
-        .collect::<Result<_, InputError>>()
-        .map_err(Failure::from)
+    let mut cases = Vec::new();
+    for stored in lines::read(BufReader::new(open(file)?), file) {
+        let stored = stored?;
+        let wrong = |message: String| InputError::at(file, stored.line, message);
+        let name = name_of(&stored);
+        if let Some(first) = lines_of_names.insert(name.clone(), stored.line) {
+            let why = match stored.name {
+                Some(_) => "",
+                None => " (a case without a name is called line-N)",
+            };
+            let message = format!(
+                "a second case called '{name}', as that of line {first} is{why}: give each a name of its own"
+            );
+            return Err(wrong(message).into());
+        }
+        if let Some(truth) = &stored.truth {
+            let line = stored.truth_line(truth.has_fractions());
+            truth.check(&line).map_err(wrong)?;
+        }
+        cases.push(stored);
+    }
+    Ok(cases)
 }
 
-/// The cases of a corpus file for a run, those that start on their triangle last; unnamed ones are called by file
-/// and line. Without any case an empty set of others.
+/// The cases of a corpus file for a run, as two sets: first the ordinary ones, then those whose rays start on their
+/// triangle. Either may be empty.
 pub fn corpus_sets(file: &str) -> Result<[CorpusSet; 2], Failure> {
     let set = |is_secondary| CorpusSet {
         file: file.to_owned(),
@@ -228,8 +238,8 @@ pub fn corpus_sets(file: &str) -> Result<[CorpusSet; 2], Failure> {
 
 /// A stored case's name, or `line-N`.
 pub fn name_of(stored: &StoredCase) -> String {
-    stored
-        .name
-        .clone()
-        .unwrap_or_else(|| format!("line-{}", stored.line))
+    match &stored.name {
+        Some(name) => name.clone(),
+        None => format!("line-{}", stored.line),
+    }
 }

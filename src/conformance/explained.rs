@@ -20,7 +20,7 @@ pub fn instead(rows: impl FnOnce() -> Result<Vec<Row>, Error>) -> Option<String>
         Err(error) => return Some(error.to_string()),
     };
     let text = explained(&rows, &case);
-    Some(text.unwrap_or_else(|message| format!("{VARIABLE}: {message}")))
+    Some(text.unwrap_or_else(|error| format!("{VARIABLE}: {error}")))
 }
 
 /// The explanation of a case as text. An error says what is wrong with its name.
@@ -38,6 +38,7 @@ pub(super) fn explained(rows: &[Row], name: &str) -> Result<String, Error> {
         explain(name, group, rows)
     });
     let mut text = Vec::new();
+    // Writing into memory does not fail.
     let _ = (Format::TEXT.write)(&explanation, Default::default(), &mut text);
     Ok(String::from_utf8_lossy(&text).into_owned())
 }
@@ -47,19 +48,21 @@ pub(super) fn mapped(row: &Row, name: &str) -> Result<String, Error> {
     let id = named(name)?;
     let drawn = in_named_scalar!(id.scalar, F => {
         let (cases, _) = cases_of::<F>(&id).map_err(no_cases)?;
-        let case = cases.first().ok_or_else(|| {
-            Error::new(ErrorKind::Nothing, format!("'{id}' has no triangle"))
-        })?;
+        let Some(case) = cases.first() else {
+            return Err(Error::new(ErrorKind::Nothing, format!("'{id}' has no triangle")));
+        };
         let grid = map::grid_of_case(case, map::CaseVector::Origin, None, None, [128; 2])?;
         map::of_kernel(case, row, &grid, &Unobserved)?
     });
     Ok(map::svg_document(&drawn))
 }
 
-fn no_cases(line: String) -> Error {
-    Error::new(ErrorKind::UnknownName, line)
+/// The error of a name that leads to no cases.
+fn no_cases(message: String) -> Error {
+    Error::new(ErrorKind::UnknownName, message)
 }
 
+/// The id that a case's name is.
 fn named(name: &str) -> Result<CaseId, Error> {
     let id: CaseId = name.parse()?;
     if id.parameters.instance.is_some() {

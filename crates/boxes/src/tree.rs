@@ -8,41 +8,42 @@ use std::collections::VecDeque;
 
 type Point = [f64; 3];
 
+/// The least and the greatest corner of a box.
+type Bounds = [Point; 2];
+
 /// The boxes of a mesh.
 pub struct Tree {
     pub(crate) name: String,
     /// A box a face.
-    faces: Vec<[Point; 2]>,
-    /// A box a node with more than one face, the largest first.
-    nodes: Vec<[Point; 2]>,
+    faces: Vec<Bounds>,
+    /// A box a node with more than one face; a node stands before those below it.
+    nodes: Vec<Bounds>,
 }
 
 impl Tree {
-    /// From a name and triangles. An error if there are none.
+    /// The boxes of triangles. An error if there are none.
     pub fn new(name: String, triangles: &[[Point; 3]]) -> Result<Tree, String> {
         if triangles.is_empty() {
             return Err(format!("{name} has no triangles, so it has no boxes"));
         }
-        let faces: Vec<[Point; 2]> = triangles.iter().map(|corners| around(corners)).collect();
+        let faces: Vec<Bounds> = triangles.iter().map(|corners| around(corners)).collect();
         let mut order: Vec<usize> = (0..faces.len()).collect();
         let mut nodes = Vec::new();
-        let mut waiting = VecDeque::new();
-        waiting.push_back(0..faces.len());
-        while let Some(range) = waiting.pop_front() {
-            if range.len() < 2 {
+        let mut waiting = VecDeque::from([&mut order[..]]);
+        while let Some(members) = waiting.pop_front() {
+            if members.len() < 2 {
                 continue;
             }
-            let members = &mut order[range.clone()];
             let corners: Vec<Point> = members.iter().flat_map(|face| faces[*face]).collect();
             nodes.push(around(&corners));
-            let middle = range.start + cut(&faces, members);
-            waiting.push_back(range.start..middle);
-            waiting.push_back(middle..range.end);
+            let (smaller, larger) = cut(&faces, members);
+            waiting.push_back(smaller);
+            waiting.push_back(larger);
         }
         Ok(Tree { name, faces, nodes })
     }
 
-    /// Case `index` of a seed's set: a box of a face, or of a node, the large ones more often.
+    /// Case `index` of a seed's set: a box of a face, or of a node, of one near the root more often.
     pub fn case<F: Float>(&self, seed: u64, index: u64) -> BoxCase<F> {
         let mut draw = Draw::new("boxes of a mesh", seed, index);
         let bounds = if draw.coin() || self.nodes.is_empty() {
@@ -56,7 +57,7 @@ impl Tree {
 }
 
 /// The box around some points, one at least.
-fn around(points: &[Point]) -> [Point; 2] {
+fn around(points: &[Point]) -> Bounds {
     let mut min = points[0];
     let mut max = min;
     for point in points {
@@ -66,54 +67,60 @@ fn around(points: &[Point]) -> [Point; 2] {
     [min, max]
 }
 
-/// Puts the faces with the smaller centres first, half of them; how many these are.
-fn cut(faces: &[[Point; 2]], members: &mut [usize]) -> usize {
-    let centre = |face: &usize| {
-        let [min, max] = faces[*face];
-        each_axis(|axis| 0.5 * min[axis] + 0.5 * max[axis])
-    };
-    let centres: Vec<Point> = members.iter().map(centre).collect();
+/// Cuts faces into two halves, those with the smaller centres first, on the axis where their centres lie farthest apart.
+fn cut<'a>(faces: &[Bounds], members: &'a mut [usize]) -> (&'a mut [usize], &'a mut [usize]) {
+    let centres: Vec<Point> = members.iter().map(|face| centre(faces[*face])).collect();
     let [min, max] = around(&centres);
-    let size = |axis: &usize| max[*axis] - min[*axis];
-    let longest = (0..3).max_by(|a, b| size(a).total_cmp(&size(b)));
+    let spread = each_axis(|axis| max[axis] - min[axis]);
+    let longest = (0..3).max_by(|a, b| spread[*a].total_cmp(&spread[*b]));
     let axis = longest.unwrap_or(0);
     let middle = members.len() / 2;
     members.select_nth_unstable_by(middle, |a, b| {
-        let order = centre(a)[axis].total_cmp(&centre(b)[axis]);
-        order.then(a.cmp(b))
+        let centre_a = centre(faces[*a])[axis];
+        let centre_b = centre(faces[*b])[axis];
+        // Equal centres are ordered too, so that the tree is the same everywhere.
+        centre_a.total_cmp(&centre_b).then(a.cmp(b))
     });
-    middle
+    members.split_at_mut(middle)
 }
 
-/// A ray at a corner, an edge, a face or the inside of a box, from inside or from up to four sizes away, on some axes straight.
-fn aimed<F: Float>(draw: &mut Draw, bounds: [Point; 2]) -> BoxCase<F> {
+fn centre([min, max]: Bounds) -> Point {
+    each_axis(|axis| 0.5 * min[axis] + 0.5 * max[axis])
+}
+
+/// A ray at a corner, an edge, a face or the inside of a box, from inside or from up to four sizes away. On some axes it
+/// is straight: its direction is 0 there.
+fn aimed<F: Float>(draw: &mut Draw, bounds: Bounds) -> BoxCase<F> {
     let [min, max] = bounds;
-    let size = each_axis(|i| max[i] - min[i]);
+    let size = each_axis(|axis| max[axis] - min[axis]);
     let largest = size.into_iter().fold(0.0, f64::max);
     let is_inside = draw.below(3) == 0;
     // A bit an axis; never all three.
     let straight = if draw.coin() { 0 } else { draw.below(7) };
     let mut target = min;
     let mut origin = min;
-    for i in 0..3 {
-        target[i] = match draw.below(3) {
-            0 => min[i],
-            1 => max[i],
-            _ => min[i] + draw.unit() * size[i],
+    for axis in 0..3 {
+        target[axis] = match draw.below(3) {
+            0 => min[axis],
+            1 => max[axis],
+            _ => min[axis] + draw.unit() * size[axis],
         };
         let share = draw.unit();
-        origin[i] = if straight >> i & 1 == 1 {
-            target[i]
+        let is_straight = straight >> axis & 1 == 1;
+        origin[axis] = if is_straight {
+            target[axis]
         } else if is_inside {
-            min[i] + share * size[i]
+            min[axis] + share * size[axis]
         } else {
-            min[i] + (8.0 * share - 4.0) * largest
+            min[axis] + (8.0 * share - 4.0) * largest
         };
     }
-    let rounded = |point: Point| point.map(F::from_f64);
-    let at = rounded(target);
-    let from = rounded(origin);
+    let [from, to] = [rounded(origin), rounded(target)];
     let length = F::from_f64(0.25 + 3.75 * draw.unit());
-    let direction = each_axis(|i| (at[i] - from[i]) * length);
+    let direction = each_axis(|axis| (to[axis] - from[axis]) * length);
     BoxCase::new(from, direction, bounds.map(rounded))
+}
+
+fn rounded<F: Float>(point: Point) -> [F; 3] {
+    point.map(F::from_f64)
 }

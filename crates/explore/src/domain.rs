@@ -6,7 +6,7 @@ use crate::case::{Case, Ray, Triangle};
 
 named! {
     pub names
-    /// Which cases count.
+    /// The cases that count.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     pub enum SearchDomain {
         /// Ordinary cases:
@@ -16,7 +16,7 @@ named! {
         /// - the sine of the angle between ray and plane at least 2^-6 (not grazing);
         /// - the origin at least 2^-6 longest edges from where the line meets the plane.
         Moderate = "moderate",
-        /// Every finite case with a direction and an interval that is one.
+        /// Every finite case whose direction is not zero and whose interval is not empty.
         Any = "any",
     }
 }
@@ -49,17 +49,18 @@ impl SearchDomain {
 
     fn allows_numbers<F: Float>(self, case: &Case<F>) -> bool {
         let vectors = case.vectors();
+        let [_, direction, ..] = vectors;
+        if direction.iter().all(F::is_zero) {
+            return false;
+        }
         let mut numbers = vectors.iter().flatten();
-        let has_direction = vectors[1].iter().any(|x| !x.is_zero());
         let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
         match self {
-            SearchDomain::Any => has_direction && t_min <= t_max && numbers.all(F::is_finite),
+            SearchDomain::Any => t_min <= t_max && numbers.all(F::is_finite),
             SearchDomain::Moderate => {
                 let sizes = scale_by_power_of_two(1.0, -20)..=scale_by_power_of_two(1.0, 20);
-                has_direction
-                    && t_min.is_zero()
-                    && t_max == F::infinity()
-                    && numbers.all(|x| x.is_zero() || sizes.contains(&x.to_f64().abs()))
+                let is_default = t_min.is_zero() && t_max == F::infinity();
+                is_default && numbers.all(|x| x.is_zero() || sizes.contains(&x.to_f64().abs()))
             }
         }
     }
@@ -68,40 +69,54 @@ impl SearchDomain {
 /// The least share that the longest edge is of the largest coordinate.
 const FAR: f64 = 1.0 / 1024.0;
 
-/// The least of height, sine and distance, as shares of what they stand against.
+/// The least share that the height and the distance are of the longest edge, and the least sine.
 const SHARE: f64 = 1.0 / 64.0;
 
 /// True if the longest edge is at least `far` of the largest coordinate, and height, sine and distance
-/// at least `share`. All comparisons are of squares: no root is taken.
-fn is_healthy<V: Vector>(
-    Ray {
-        origin: o,
-        direction: d,
-        ..
-    }: &Ray<V>,
-    Triangle { a, b, c }: &Triangle<V>,
-    shares: [V::Real; 2],
-) -> bool {
-    let [far, share] = shares.map(|share| share.clone() * &share);
-    let larger = |x: V::Real, y: V::Real| if x.is_less(&y) { y } else { x };
-    let square = |v: &V| v.dot(v);
-    let numbers = [o, a, b, c]
-        .into_iter()
-        .flat_map(|p| [p.at(0), p.at(1), p.at(2)]);
-    let largest = numbers.map(|x| x.abs()).fold(V::Real::zero(), larger);
+/// at least `share`. All comparisons are of squares, so no root is taken.
+fn is_healthy<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, [far, share]: [V::Real; 2]) -> bool {
+    let far_squared = far.clone() * &far;
+    let share_squared = share.clone() * &share;
+    let (origin, direction) = (&ray.origin, &ray.direction);
+    let Triangle { a, b, c } = triangle;
+    let mut largest = V::Real::zero();
+    for point in [origin, a, b, c] {
+        for axis in 0..3 {
+            largest = larger(largest, point.at(axis).abs());
+        }
+    }
     let edges = [b.minus(a), c.minus(b), a.minus(c)];
-    let longest = edges.iter().map(square).fold(V::Real::zero(), larger);
-    let n = edges[0].cross(&c.minus(a));
-    let (n_squared, d_squared) = (square(&n), square(d));
-    let capital_d = n.dot(d);
-    let capital_t = n.dot(&a.minus(o));
-    let d_d = capital_d.clone() * &capital_d;
-    let near =
-        (longest.clone() * &d_d * &share).is_at_most(&(capital_t.clone() * capital_t * &d_squared));
-    near && (largest.clone() * largest * &far).is_at_most(&longest)
-        && (longest.clone() * &longest * &share).is_at_most(&n_squared)
-        && (d_squared * n_squared * share).is_at_most(&d_d)
-        && V::Real::zero().is_less(&d_d)
+    let mut longest_squared = V::Real::zero();
+    for edge in &edges {
+        longest_squared = larger(longest_squared, edge.dot(edge));
+    }
+    let normal = edges[0].cross(&c.minus(a));
+    let normal_squared = normal.dot(&normal);
+    let direction_squared = direction.dot(direction);
+    // The line meets the plane at t = T/D.
+    let capital_d = normal.dot(direction);
+    let capital_t = normal.dot(&a.minus(origin));
+    let d_squared = capital_d.clone() * &capital_d;
+    let distance = capital_t.clone() * capital_t * &direction_squared;
+    let least_distance = longest_squared.clone() * &d_squared * &share_squared;
+    if !least_distance.is_at_most(&distance) {
+        return false;
+    }
+    let least_edge = largest.clone() * largest * &far_squared;
+    if !least_edge.is_at_most(&longest_squared) {
+        return false;
+    }
+    let least_normal = longest_squared.clone() * &longest_squared * &share_squared;
+    if !least_normal.is_at_most(&normal_squared) {
+        return false;
+    }
+    let least_d = direction_squared * normal_squared * share_squared;
+    least_d.is_at_most(&d_squared) && V::Real::zero().is_less(&d_squared)
+}
+
+/// The larger of two numbers; the first if one is NaN.
+pub(super) fn larger<R: Real>(x: R, y: R) -> R {
+    if x.is_less(&y) { y } else { x }
 }
 
 #[cfg(test)]

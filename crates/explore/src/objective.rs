@@ -26,7 +26,7 @@
 //! is convention, not error, and has no score. A false hit before or beyond the extent has a score only at
 //! a gate on t.
 
-use super::domain::SearchDomain;
+use super::domain::{SearchDomain, larger};
 use crate::arith::{Exact, Float, Real, Vector};
 use crate::audit::{Row, values};
 use crate::case::{Case, Ray, Triangle};
@@ -37,6 +37,7 @@ use crate::kernel::gate::refused_by;
 use crate::kernel::{Dimension, KernelInfo, Role, Scalar, Tunable, Verdict};
 use crate::oracle;
 use crate::truth::{Feature, Truth};
+use std::slice;
 
 named! {
     pub names
@@ -85,28 +86,27 @@ impl SearchTarget {
     /// Every target that a kernel has: no margin of a gate without epsilons, no value that it does
     /// not give.
     pub fn of_kernel(info: &KernelInfo) -> Vec<SearchTarget> {
-        let at_gates = |objective| {
-            let gates = 0..info.gates.len();
-            gates.map(move |gate| SearchTarget {
-                objective,
-                gate: Some(gate),
-            })
-        };
-        let value = |objective| SearchTarget {
-            objective,
-            gate: None,
-        };
-        let tuned = |target: &SearchTarget| {
-            target
-                .gate
-                .is_some_and(|g| info.gates[g].epsilon != Tunable::Fixed)
-        };
-        let mut targets: Vec<SearchTarget> = at_gates(Objective::Margin).filter(tuned).collect();
-        targets.extend(info.gives.t.then_some(value(Objective::T)));
-        targets.extend(info.gives.uv.then_some(value(Objective::Uv)));
-        targets.extend((info.gives.t || info.gives.uv).then_some(value(Objective::WrongValue)));
-        targets.extend(at_gates(Objective::FalseMiss));
-        targets.extend(at_gates(Objective::FalseHit));
+        let mut targets = Vec::new();
+        let mut add = |objective, gate| targets.push(SearchTarget { objective, gate });
+        for (place, gate) in info.gates.iter().enumerate() {
+            if gate.epsilon != Tunable::Fixed {
+                add(Objective::Margin, Some(place));
+            }
+        }
+        if info.gives.t {
+            add(Objective::T, None);
+        }
+        if info.gives.uv {
+            add(Objective::Uv, None);
+        }
+        if info.gives.t || info.gives.uv {
+            add(Objective::WrongValue, None);
+        }
+        for objective in [Objective::FalseMiss, Objective::FalseHit] {
+            for place in 0..info.gates.len() {
+                add(objective, Some(place));
+            }
+        }
         targets
     }
 
@@ -120,9 +120,8 @@ impl SearchTarget {
 
     /// The target of a name.
     pub fn find(name: &str, info: &KernelInfo) -> Option<SearchTarget> {
-        SearchTarget::of_kernel(info)
-            .into_iter()
-            .find(|target| target.name(info) == name)
+        let mut targets = SearchTarget::of_kernel(info).into_iter();
+        targets.find(|target| target.name(info) == name)
     }
 }
 
@@ -155,9 +154,8 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         }
     }
 
-    /// A score in `f64`: of an `f32` case against the same kernel and formulas in `f64`, of an `f64`
-    /// case against exact numbers. Negative where there is nothing to score; minus infinity outside
-    /// the domain.
+    /// A score in `f64`. An `f32` case is compared with the same kernel and formulas in `f64`, an `f64` case with exact
+    /// numbers. The score is negative where there is nothing to score, and minus infinity outside the domain.
     pub fn quick(&self, case: &Case<F>) -> f64 {
         if !self.domain.holds_quickly(case) {
             return f64::NEG_INFINITY;
@@ -183,8 +181,7 @@ impl<'a, F: Scalar> Scorer<'a, F> {
             Objective::T | Objective::Uv => self.exact_value(case),
             Objective::WrongValue => {
                 let (_, verdict) = self.hit_with_values(case)?;
-                let times = exact_times(case, self.row.entry.info.gives, &verdict);
-                times.is_finite().then_some(times)
+                finite(exact_times(case, self.row.entry.info.gives, &verdict))
             }
             Objective::FalseMiss | Objective::FalseHit => {
                 let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
@@ -195,72 +192,70 @@ impl<'a, F: Scalar> Scorer<'a, F> {
     }
 
     /// The threshold of the target's gate, if the gate is reached and the threshold is finite. Thresholds
-    /// are compared, not margins: the margin of a gate `x <= e` is a float below x, of no exact number.
-    fn reached_threshold(&self, case: &Case<F>) -> Option<(usize, F)> {
+    /// are compared, not margins: the margin of a gate `x <= e` is the float below x, and an exact number has none.
+    fn reached_threshold(&self, case: &Case<F>) -> Option<Threshold<F>> {
         let gate = self.target.gate?;
         let gated = F::subject(self.row.entry)?.gated()?;
         let margins = gated.measure(case).margins;
-        let reached = refused_by(&margins, &self.epsilons).is_none_or(|refused| gate <= refused);
-        let threshold = reached.then(|| gated.thresholds(case)[gate])?;
-        threshold.is_finite().then_some((gate, threshold))
+        if refused_by(&margins, &self.epsilons).is_some_and(|refused| refused < gate) {
+            return None;
+        }
+        let value = gated.thresholds(case)[gate];
+        value.is_finite().then_some(Threshold { gate, value })
     }
 
     fn quick_margin(&self, case: &Case<F>) -> Option<f64> {
-        let (gate, threshold) = self.reached_threshold(case)?;
+        let Threshold { gate, value } = self.reached_threshold(case)?;
         let wide = case.widen();
         let exact = f64::subject(self.row.entry)?.gated()?.thresholds(&wide)[gate];
-        let scale = scale(
-            &wide.ray,
-            &wide.triangle,
-            self.row.entry.info.gates[gate].dimension,
-        );
+        let scale = scale(&wide.ray, &wide.triangle, self.dimension(gate));
         let unit = scale.max(exact.abs()) * F::EPSILON.to_f64();
-        let error = (threshold.to_f64() - exact).abs() / unit;
-        error.is_finite().then_some(error)
+        finite((value.to_f64() - exact).abs() / unit)
     }
 
     fn exact_margin(&self, case: &Case<F>) -> Option<Exact> {
-        let (gate, threshold) = self.reached_threshold(case)?;
+        let Threshold { gate, value } = self.reached_threshold(case)?;
         let gated = F::subject(self.row.entry)?.gated()?;
         let exact = gated.measure_exact(case).margins.swap_remove(gate);
         let (ray, triangle) = case.exact();
-        let scale = scale(&ray, &triangle, self.row.entry.info.gates[gate].dimension);
-        let size = exact.abs();
-        let unit = if scale.is_less(&size) { size } else { scale };
-        let error = (of(threshold) - exact).abs() / (unit * of(F::EPSILON));
-        error.is_finite().then_some(error)
+        let scale = scale(&ray, &triangle, self.dimension(gate));
+        let unit = larger(scale, exact.abs()) * of(F::EPSILON);
+        finite((of(value) - exact).abs() / unit)
     }
 
     /// The least unit in which the error of a gate's margin is counted on a case.
     pub fn unit_of_margin(&self, case: &Case<F>, gate: usize) -> f64 {
         let wide = case.widen();
-        let dimension = self.row.entry.info.gates[gate].dimension;
-        scale(&wide.ray, &wide.triangle, dimension) * F::EPSILON.to_f64()
+        scale(&wide.ray, &wide.triangle, self.dimension(gate)) * F::EPSILON.to_f64()
+    }
+
+    fn dimension(&self, gate: usize) -> Dimension {
+        self.row.entry.info.gates[gate].dimension
     }
 
     /// The verdict, if it is a hit that is not false, on a transversal case.
     fn true_hit(&self, case: &Case<F>) -> Option<Verdict<F>> {
         let (truth, verdict, finding) = verdict_and_finding(self.row, &self.epsilons, case);
-        let counts = verdict.hit && finding != Some(Finding::FalseHit);
-        truth.crossing().filter(|_| counts).map(|_| verdict)
+        truth.crossing()?;
+        let is_true = verdict.hit && finding != Some(Finding::FalseHit);
+        is_true.then_some(verdict)
     }
 
     /// The truth and the verdict of a hit that is not false, with finite values, at a point of the triangle.
     fn hit_with_values(&self, case: &Case<F>) -> Option<(Truth, Verdict<F>)> {
         let verdict = self.true_hit(case)?;
         let truth = oracle::truth(case);
-        let is_met = truth
-            .crossing()
-            .is_some_and(|it| it.feature != Feature::Outside);
+        if truth.crossing()?.feature == Feature::Outside {
+            return None;
+        }
         let values = [verdict.t, verdict.u, verdict.v];
-        (is_met && values.iter().all(F::is_finite)).then_some((truth, verdict))
+        values.iter().all(F::is_finite).then_some((truth, verdict))
     }
 
     fn quick_times(&self, case: &Case<F>) -> Option<f64> {
         let (truth, verdict) = self.hit_with_values(case)?;
         let times = ValueErrors::of(case, &truth, self.row.entry.info.gives, &verdict).times;
-        let worst = times.into_iter().flatten().fold(0.0, f64::max);
-        worst.is_finite().then_some(worst)
+        finite(times.into_iter().flatten().fold(0.0, f64::max))
     }
 
     fn quick_value(&self, case: &Case<F>) -> Option<f64> {
@@ -268,13 +263,15 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         let wide = case.widen();
         let [t, u, v] = values(&wide.ray, &wide.triangle);
         let error = |computed: F, exact: f64| (computed.to_f64() - exact).abs();
-        let error = match self.target.objective {
-            // Of an exact t of zero there is no ulp.
-            Objective::T if t == 0.0 => return None,
-            Objective::T => error(verdict.t, t) / F::from_f64(t).ulp().to_f64(),
-            _ => error(verdict.u, u).max(error(verdict.v, v)) / F::EPSILON.to_f64(),
-        };
-        error.is_finite().then_some(error)
+        if self.target.objective != Objective::T {
+            let worst = error(verdict.u, u).max(error(verdict.v, v));
+            return finite(worst / F::EPSILON.to_f64());
+        }
+        // A t of zero has no ulp to count in.
+        if t == 0.0 {
+            return None;
+        }
+        finite(error(verdict.t, t) / F::from_f64(t).ulp().to_f64())
     }
 
     fn exact_value(&self, case: &Case<F>) -> Option<Exact> {
@@ -282,15 +279,15 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         let (ray, triangle) = case.exact();
         let [t, u, v] = values(&ray, &triangle);
         let error = |computed: F, exact: &Exact| (of(computed) - exact).abs();
-        let error = match self.target.objective {
-            Objective::T if t.is_zero() => return None,
-            Objective::T => error(verdict.t, &t) / of(F::from_f64(t.approximate()).ulp()),
-            _ => {
-                let (u, v) = (error(verdict.u, &u), error(verdict.v, &v));
-                (if u.is_less(&v) { v } else { u }) / of(F::EPSILON)
-            }
-        };
-        error.is_finite().then_some(error)
+        if self.target.objective != Objective::T {
+            let worst = larger(error(verdict.u, &u), error(verdict.v, &v));
+            return finite(worst / of(F::EPSILON));
+        }
+        if t.is_zero() {
+            return None;
+        }
+        let ulp = F::from_f64(t.approximate()).ulp();
+        finite(error(verdict.t, &t) / of(ulp))
     }
 
     /// The error of t over the exact t, of a case that a `t` target scores.
@@ -298,7 +295,8 @@ impl<'a, F: Scalar> Scorer<'a, F> {
         let verdict = self.true_hit(case)?;
         let (ray, triangle) = case.exact();
         let [t, ..] = values(&ray, &triangle);
-        Some(((of(verdict.t) - &t).abs() / t.abs()).approximate())
+        let error = (of(verdict.t) - &t).abs();
+        Some((error / t.abs()).approximate())
     }
 
     fn quick_severity(&self, case: &Case<F>) -> f64 {
@@ -319,55 +317,57 @@ impl<'a, F: Scalar> Scorer<'a, F> {
             (Objective::FalseMiss, Finding::FalseMiss) => {
                 verdict.refused_by.map(usize::from) == self.target.gate
             }
-            (Objective::FalseHit, Finding::FalseHit) => {
-                let gates = self.row.entry.info.gates;
-                let tests_t = self
-                    .target
-                    .gate
-                    .is_some_and(|gate| gates[gate].role == Role::T);
-                let extent = self.row.contract.extent;
-                let off_end = truth.crossing().is_some_and(|c| !is_in_extent(c, extent));
-                let refusing = exactly_refusing(self.row, &self.epsilons, case);
-                (tests_t || !off_end) && refusing.is_some() && refusing == self.target.gate
-            }
+            (Objective::FalseHit, Finding::FalseHit) => self.wants_false_hit(truth, case),
             _ => false,
         }
     }
+
+    /// True if the target's gate is the first that refuses without rounding. A hit before or beyond the extent counts only
+    /// at a gate on t.
+    fn wants_false_hit(&self, truth: &Truth, case: &Case<F>) -> bool {
+        let Some(gate) = self.target.gate else {
+            return false;
+        };
+        let extent = self.row.contract.extent;
+        let crossing = truth.crossing();
+        let is_off_end = crossing.is_some_and(|crossing| !is_in_extent(crossing, extent));
+        if is_off_end && self.row.entry.info.gates[gate].role != Role::T {
+            return false;
+        }
+        exactly_refusing(self.row, &self.epsilons, case) == Some(gate)
+    }
+}
+
+/// A gate, and the threshold of its epsilon on a case.
+struct Threshold<F> {
+    gate: usize,
+    value: F,
 }
 
 /// The first gate that refuses in exact arithmetic; none if the formula without rounding hits.
 fn exactly_refusing<F: Scalar>(row: &Row, epsilons: &[F], case: &Case<F>) -> Option<usize> {
-    F::subject(row.entry)?
-        .gated()?
-        .run_exact(case, epsilons)
-        .refused_by()
+    let gated = F::subject(row.entry)?.gated()?;
+    gated.run_exact(case, epsilons).refused_by()
 }
 
-/// The truth, the kernel's verdict, and what `judge` makes of the two. Cases are judged one by one:
+/// The truth, the kernel's verdict, and the finding if they disagree. Cases are judged one by one:
 /// nothing is demanded of a secondary ray on the triangle that it starts on.
 pub fn verdict_and_finding<F: Scalar>(
     row: &Row,
     epsilons: &[F],
     case: &Case<F>,
 ) -> (Truth, Verdict<F>, Option<Finding>) {
-    let mut verdict = [Verdict::miss(None)];
-    // A kernel that does not run in this scalar misses, and finds nothing.
+    let mut verdict = Verdict::miss(None);
+    // A kernel that does not run in this scalar misses.
     if let Some(subject) = F::subject(row.entry) {
-        subject.run(std::slice::from_ref(case), epsilons, &mut verdict);
+        let verdicts = slice::from_mut(&mut verdict);
+        subject.run(slice::from_ref(case), epsilons, verdicts);
     }
-    let [verdict] = verdict;
     let truth = oracle::truth(case);
-    let asked = asked(case, &truth, &row.contract, false);
-    (
-        truth,
-        verdict,
-        judge(
-            (&row.contract, asked),
-            (case, &truth),
-            row.entry.info.gives,
-            &verdict,
-        ),
-    )
+    let obligation = asked(case, &truth, &row.contract, false);
+    let demand = (&row.contract, obligation);
+    let finding = judge(demand, (case, &truth), row.entry.info.gives, &verdict);
+    (truth, verdict, finding)
 }
 
 /// True if `f64` has digits and range to spare for products of a scalar's numbers.
@@ -390,20 +390,27 @@ fn nearest(value: &Exact) -> f64 {
 
 /// A gate's scale on a case: E^p·|d|^q.
 pub fn scale<V: Vector>(ray: &Ray<V>, triangle: &Triangle<V>, dimension: Dimension) -> V::Real {
-    let larger = |x: V::Real, v: V| {
-        [0, 1, 2]
-            .into_iter()
-            .map(|axis| v.at(axis).abs())
-            .fold(x, |x, y| if x.is_less(&y) { y } else { x })
-    };
-    let points = [&ray.origin, &triangle.a, &triangle.b, &triangle.c];
-    let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
-    let differences = pairs
-        .into_iter()
-        .map(|(i, j): (usize, usize)| points[i].minus(points[j]));
-    let extent = differences.fold(V::Real::zero(), larger);
-    let direction = larger(V::Real::zero(), ray.direction.clone());
+    let Triangle { a, b, c } = triangle;
+    let o = &ray.origin;
+    let mut extent = V::Real::zero();
+    for (p, q) in [(o, a), (o, b), (o, c), (a, b), (a, c), (b, c)] {
+        extent = larger(extent, largest_component(&p.minus(q)));
+    }
+    let direction = largest_component(&ray.direction);
     power(&extent, dimension.length) * power(&direction, dimension.direction)
+}
+
+fn largest_component<V: Vector>(vector: &V) -> V::Real {
+    let mut largest = V::Real::zero();
+    for axis in 0..3 {
+        largest = larger(largest, vector.at(axis).abs());
+    }
+    largest
+}
+
+/// A score that counts: one that is finite.
+fn finite<R: Real>(score: R) -> Option<R> {
+    score.is_finite().then_some(score)
 }
 
 fn power<R: Real>(base: &R, exponent: i8) -> R {

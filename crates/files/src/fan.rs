@@ -1,13 +1,12 @@
-//! The faces of a mesh: whether a triangle has an area, and whether a polygon's fan folds over.
+//! The faces of a mesh: does a triangle have an area, does a polygon's fan fold over, and does a closed fan go once around?
 //!
-//! Both are decided without error: in double-doubles with a bound where that suffices, and in exact numbers
-//! where it does not.
+//! All are decided without error: in numbers with a bound where that suffices, and in exact numbers where it does not.
 
 use crate::arith::{Bounded, Exact, Real, Triple, Vector, bounded};
 use glam::{DVec3, Vec3Swizzles};
 use std::cmp::Ordering;
 
-/// Decides a question in either arithmetic, given how to make a number from a float.
+/// The answer to a question, in numbers with bounds if they decide it, else in exact ones.
 macro_rules! decide {
     ($question:ident($($argument:expr),*)) => {
         bounded(|| $question(Bounded::new, $($argument),*))
@@ -54,30 +53,29 @@ fn fan_turns_once<R: Real>(
         .iter()
         .map(|point| arm(number, centre, point))
         .collect();
-    let side = |i: usize| Some(sign(&arms[0].cross(&arms[i]).dot(&direction)));
-    turns_once(arms.len(), side).expect("every side is known")
+    let side = |i: usize| sign(&arms[0].cross(&arms[i]).dot(&direction));
+    turns_once(arms.len(), |i| Some(side(i))).expect("every side is known")
 }
 
 /// True if points turn once around a centre. `side` gives for each point but the first on which side of the first it
 /// lies; the result is none where a side is not known.
 ///
-/// Each step turns the same way, by less than half a turn, so that on which half the points lie,
-/// counted from the first, tells how often they go around.
+/// Each step turns the same way, by less than half a turn. So the points go around once more wherever they come from the
+/// second half, counted from the first point, to the first half.
 fn turns_once(points: usize, side: impl Fn(usize) -> Option<Ordering>) -> Option<bool> {
-    let turn = side(1)?;
-    let (mut rounds, mut beyond_half) = (1, false);
+    let first_step = side(1)?;
+    let mut rounds = 1;
+    let mut was_beyond_half = false;
     for i in 1..points {
-        let side = side(i)?;
-        // On the line of the first point: opposite to it after the first half, at it after the second.
-        let first_half = if side == Ordering::Equal {
-            beyond_half
-        } else {
-            side == turn
+        let is_beyond_half = match side(i)? {
+            // On the line of the first point: opposite to it after the first half, at it after the second.
+            Ordering::Equal => !was_beyond_half,
+            side => side != first_step,
         };
-        if first_half && beyond_half {
+        if was_beyond_half && !is_beyond_half {
             rounds += 1;
         }
-        beyond_half = !first_half;
+        was_beyond_half = is_beyond_half;
     }
     Some(rounds == 1)
 }
@@ -89,20 +87,18 @@ fn side_in_floats(
     p: [f64; 3],
     q: [f64; 3],
 ) -> Option<Ordering> {
-    let arm = |to: [f64; 3]| DVec3::from(to) - DVec3::from(centre);
-    let (e, f, d) = (arm(p), arm(q), DVec3::from(direction));
-    let side = e.cross(f).dot(d);
-    let [e, f, d] = [e, f, d].map(DVec3::abs);
+    let centre = DVec3::from(centre);
+    let to_p = DVec3::from(p) - centre;
+    let to_q = DVec3::from(q) - centre;
+    let direction = DVec3::from(direction);
+    let side = to_p.cross(to_q).dot(direction);
+    let [p_size, q_size, size] = [to_p, to_q, direction].map(DVec3::abs);
     // The sum of the sizes of the six terms. Each has two differences and two products, and is added three times: its
     // error is below 8 units of 2^-53 of its size. Within these sizes underflow adds less than the rest of 16.
-    let sizes = (e.yzx() * f.zxy() + e.zxy() * f.yzx()).dot(d);
-    let is_moderate = (1e-150..1e150).contains(&sizes) && d.max_element() < 1e100;
+    let sizes = (p_size.yzx() * q_size.zxy() + p_size.zxy() * q_size.yzx()).dot(size);
+    let is_moderate = (1e-150..1e150).contains(&sizes) && size.max_element() < 1e100;
     let is_certain = is_moderate && side.abs() > 8.0 * f64::EPSILON * sizes;
-    is_certain.then_some(if side < 0.0 {
-        Ordering::Less
-    } else {
-        Ordering::Greater
-    })
+    is_certain.then(|| side.total_cmp(&0.0))
 }
 
 fn normal_is_zero<R: Real>(number: fn(f64) -> R, [a, b, c]: &[[f64; 3]; 3]) -> bool {
@@ -110,44 +106,50 @@ fn normal_is_zero<R: Real>(number: fn(f64) -> R, [a, b, c]: &[[f64; 3]; 3]) -> b
 }
 
 fn fan_folds<R: Real>(number: fn(f64) -> R, corners: &[[f64; 3]]) -> bool {
-    let arms: Vec<_> = corners[1..]
-        .iter()
-        .map(|corner| arm(number, &corners[0], corner))
-        .collect();
-    let normals: Vec<_> = arms
-        .windows(2)
-        .map(|pair| pair[0].cross(&pair[1]))
-        .collect();
-    let zero = arm(number, &corners[0], &corners[0]);
-    let area = normals.iter().fold(zero, |area, normal| area.plus(normal));
-    let normals: Vec<_> = normals.iter().filter(|normal| !is_zero(normal)).collect();
+    let first = &corners[0];
+    let others = corners[1..].iter();
+    let mut arms: Vec<_> = others.map(|corner| arm(number, first, corner)).collect();
+    let mut area = arm(number, first, first);
+    let mut normals = Vec::new();
+    for pair in arms.windows(2) {
+        let normal = pair[0].cross(&pair[1]);
+        area = area.plus(&normal);
+        if !is_zero(&normal) {
+            normals.push(normal);
+        }
+    }
     if normals.is_empty() {
         return false;
     }
-    if normals
-        .windows(2)
-        .any(|pair| sign(&pair[0].dot(pair[1])) != Ordering::Greater)
-    {
+    let mut bends = normals.windows(2);
+    if !bends.all(|pair| is_positive(&pair[0].dot(&pair[1]))) {
         return true;
     }
-    let arms: Vec<_> = arms.iter().filter(|arm| !is_zero(arm)).collect();
-    let mut beyond_half = false;
+    arms.retain(|arm| !is_zero(arm));
+    let mut was_beyond_half = false;
     for pair in arms.windows(2) {
-        let step = pair[0].cross(pair[1]);
-        match sign(&step.dot(&area)) {
-            Ordering::Greater => {}
-            Ordering::Equal
-                if is_zero(&step) && sign(&pair[0].dot(pair[1])) == Ordering::Greater => {}
-            _ => return true,
-        }
-        // Each step is below half a turn, so a fan that comes back to the first half has gone round.
-        let second_half = sign(&arms[0].cross(pair[1]).dot(&area)) == Ordering::Less;
-        if beyond_half && !second_half {
+        if !turns_on(&pair[0], &pair[1], &area) {
             return true;
         }
-        beyond_half = second_half;
+        // Each step is below half a turn, so a fan that comes back to the first half has gone round.
+        let is_beyond_half = sign(&arms[0].cross(&pair[1]).dot(&area)) == Ordering::Less;
+        if was_beyond_half && !is_beyond_half {
+            return true;
+        }
+        was_beyond_half = is_beyond_half;
     }
     false
+}
+
+/// True if the step from an arm to the next turns the way of the area, or does not turn at all.
+fn turns_on<R: Real>(from: &Triple<R>, to: &Triple<R>, area: &Triple<R>) -> bool {
+    let step = from.cross(to);
+    match sign(&step.dot(area)) {
+        Ordering::Greater => true,
+        // Arms along one line: the next must not turn back.
+        Ordering::Equal => is_zero(&step) && is_positive(&from.dot(to)),
+        Ordering::Less => false,
+    }
 }
 
 fn arm<R: Real>(number: fn(f64) -> R, from: &[f64; 3], to: &[f64; 3]) -> Triple<R> {
@@ -158,12 +160,18 @@ fn is_zero<R: Real>(vector: &Triple<R>) -> bool {
     (0..3).all(|axis| vector.at(axis).is_zero())
 }
 
+fn is_positive<R: Real>(number: &R) -> bool {
+    sign(number) == Ordering::Greater
+}
+
 /// The sign of a number that is not NaN.
 pub(super) fn sign<R: Real>(number: &R) -> Ordering {
-    match number.is_sign_negative() {
-        true => Ordering::Less,
-        false if number.is_zero() => Ordering::Equal,
-        false => Ordering::Greater,
+    if number.is_sign_negative() {
+        Ordering::Less
+    } else if number.is_zero() {
+        Ordering::Equal
+    } else {
+        Ordering::Greater
     }
 }
 

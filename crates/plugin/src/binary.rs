@@ -15,7 +15,6 @@ pub(super) const MARGINS: [u8; 4] = *b"HLM1";
 pub(super) const ANSWER: [u8; 4] = *b"HLA1";
 /// Instead of an answer, from the host of a library: the kernel touched memory outside its buffers.
 const OVERRUN: [u8; 4] = *b"HLX1";
-
 /// Instead of an answer, from the host of a library: the kernel threw a C++ exception.
 const EXCEPTION: [u8; 4] = *b"HLC1";
 /// In front of an answer: the process's arithmetic has changed, and its bits follow.
@@ -27,9 +26,11 @@ const TOOK: [u8; 4] = *b"HLT1";
 pub(super) const BATCH_HEAD: usize = 16;
 /// Bytes of an answer's head: [`ANSWER`], number of verdicts.
 pub(super) const ANSWER_HEAD: usize = 8;
-/// Bytes of a verdict: hit and facing as 32-bit integers, then t, u, v.
+/// Bytes of a verdict's hit and facing, which are 32-bit integers.
+const VERDICT_HEAD: usize = 8;
+/// Bytes of a verdict: its head, then t, u, v.
 pub(super) const fn verdict_bytes<F: Float>() -> usize {
-    8 + 3 * size_of::<F>()
+    VERDICT_HEAD + 3 * size_of::<F>()
 }
 
 /// Appends a number.
@@ -44,7 +45,7 @@ pub(super) fn float<F: Float>(bytes: &[u8]) -> F {
     F::from_bits(u64::from_le_bytes(bits))
 }
 
-/// Writes a batch, of [`BATCH`] or [`MARGINS`]: the head, the epsilons, the numbers of the cases, so many a case.
+/// Writes a batch, of [`BATCH`] or [`MARGINS`]: the head, the epsilons, the numbers of the cases, `width` of them a case.
 pub(super) fn write_batch<F: Float, N: AsRef<[F]>>(
     kind: [u8; 4],
     width: usize,
@@ -57,11 +58,15 @@ pub(super) fn write_batch<F: Float, N: AsRef<[F]>>(
     for count in [8 * size_of::<F>(), cases.len(), epsilons.len()] {
         bytes.extend((count as u32).to_le_bytes());
     }
-    epsilons.iter().for_each(|epsilon| push(bytes, *epsilon));
-    let start = bytes.len();
+    for epsilon in epsilons {
+        push(bytes, *epsilon);
+    }
     let size = size_of::<F>();
-    bytes.resize(start + cases.len() * width * size, 0);
-    for (record, case) in bytes[start..].chunks_exact_mut(width * size).zip(cases) {
+    let record = width * size;
+    let start = bytes.len();
+    bytes.resize(start + cases.len() * record, 0);
+    let records = bytes[start..].chunks_exact_mut(record);
+    for (record, case) in records.zip(cases) {
         for (place, number) in record.chunks_exact_mut(size).zip(case.as_ref()) {
             place.copy_from_slice(&number.to_bits().to_le_bytes()[..size]);
         }
@@ -73,14 +78,14 @@ pub(super) fn write_batch<F: Float, N: AsRef<[F]>>(
 pub(super) enum Before {
     /// Its arithmetic has changed to this.
     Floats(FloatEnvironment),
-    /// So many nanoseconds went by in the kernel.
+    /// This many nanoseconds went by in the kernel.
     Took(u64),
     /// There is no answer.
     Failure(Failure),
 }
 
 impl Before {
-    /// The head that says it.
+    /// The message as a head.
     pub fn head(&self) -> [u8; ANSWER_HEAD] {
         let (kind, number) = match *self {
             Before::Floats(floats) => (ENVIRONMENT, floats.bits()),
@@ -110,15 +115,14 @@ pub(super) fn before_answer(head: &[u8]) -> Option<Before> {
 
 /// A verdict from its bytes; an error says what was expected.
 pub(super) fn verdict<F: Float>(bytes: &[u8]) -> Result<Verdict<F>, String> {
-    let integer =
-        |at: usize| i32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
-    let number = |place: usize| float(&bytes[8 + place * size_of::<F>()..][..size_of::<F>()]);
-    match integer(0) {
+    let (head, values) = bytes.split_at(VERDICT_HEAD);
+    let (integers, _) = head.as_chunks();
+    match i32::from_le_bytes(integers[0]) {
         0 => return Ok(Verdict::miss(None)),
         1 => {}
         other => return Err(format!("hit is {other}, expected 0 or 1")),
     }
-    let facing = match integer(4) {
+    let facing = match i32::from_le_bytes(integers[1]) {
         0 => None,
         1 => Some(Facing::Front),
         2 => Some(Facing::Back),
@@ -128,7 +132,8 @@ pub(super) fn verdict<F: Float>(bytes: &[u8]) -> Result<Verdict<F>, String> {
             ));
         }
     };
-    let [t, u, v] = [0, 1, 2].map(number);
+    let size = size_of::<F>();
+    let [t, u, v] = [0, 1, 2].map(|place| float(&values[place * size..][..size]));
     Ok(Verdict {
         hit: true,
         facing,

@@ -3,7 +3,7 @@
 use crate::arith::Real;
 use crate::arith::recorded::{Operation, Place};
 
-/// Runs a program.
+/// Runs a program; `values` becomes the values of its operations.
 pub fn run<R: Real>(operations: &[Operation], inputs: &[R; 17], values: &mut Vec<R>) {
     values.clear();
     for operation in operations {
@@ -38,10 +38,10 @@ fn result<R: Real>(operation: Operation<R>, inputs: &[R; 17]) -> R {
 
 /// The program of one number alone.
 pub struct Cone {
-    /// The operations that it needs, each after its operands in their order. So two paths on which a number is computed in
-    /// the same way have the same program of it.
+    /// The operations that it needs, each after its operands in their order. So a number that two paths compute in the same
+    /// way has the same program on both.
     pub operations: Vec<Operation>,
-    /// For each operation of the path, its place here.
+    /// For each operation of the path, its place here; none if it is not needed.
     pub places: Vec<Option<Place>>,
 }
 
@@ -61,12 +61,13 @@ impl Cone {
         self.operations.push(renamed);
     }
 
-    /// The place of an operation of the path that is needed.
+    /// The place here of an operation that is needed.
     pub fn at(&self, place: Place) -> Place {
         self.places[place as usize].expect("a number needs what it is made of")
     }
 }
 
+/// The program of the number at a place.
 pub fn cone(operations: &[Operation], last: Place) -> Cone {
     let mut cone = Cone {
         operations: Vec::new(),
@@ -78,8 +79,7 @@ pub fn cone(operations: &[Operation], last: Place) -> Cone {
 
 /// The numbers that a number is made of, and itself.
 pub fn parts(operations: &[Operation], place: Place) -> Vec<Place> {
-    let cone = cone(operations, place);
-    let mut parts = Vec::from_iter(0..=place);
-    parts.retain(|part| cone.places[*part as usize].is_some());
-    parts
+    let places = cone(operations, place).places;
+    let is_part = |part: &Place| places[*part as usize].is_some();
+    (0..=place).filter(is_part).collect()
 }

@@ -33,6 +33,7 @@ impl<F: Searched> Search<'_, F> {
         let scene = measures.scene;
         let near = vector(draw, |draw| near_either_end(scene.coordinates, draw));
         let a = near * power_of_half(4, draw);
+        // Unit vectors along the first edge, across it in the triangle's plane, and along the normal.
         let along = anywhere(draw).normalize_or_zero();
         let other = anywhere(draw);
         let normal = along.cross(other).normalize_or_zero();
@@ -42,6 +43,7 @@ impl<F: Searched> Search<'_, F> {
         let least_angle = scene.min_angle.to_radians();
         let at_a = cotangent_of_angle(least_angle, draw);
         let at_b = cotangent_of_angle(least_angle, draw);
+        // The second edge ends above the foot of the height.
         let height = size / (at_a + at_b);
         let e1 = size * along;
         let foot = height * at_a * along;
@@ -58,10 +60,8 @@ impl<F: Searched> Search<'_, F> {
         let direction = in_plane * cosine + normal * sine;
         let u = draw.unit();
         let v = draw.unit();
-        let of_e1 = e1 * (u * (1.0 - v));
-        let target = a + of_e1 + e2 * v;
-        let half = scene.distance / 2.0;
-        let farthest = half.max(scene.distance - size);
+        let target = a + e1 * (u * (1.0 - v)) + e2 * v;
+        let farthest = (scene.distance / 2.0).max(scene.distance - size);
         let distance = near_either_end(farthest, draw).abs();
         let origin = target - direction * distance;
         self.inputs_of([origin, direction, a, a + e1, a + e2])
@@ -159,7 +159,7 @@ struct Corner<'a> {
 }
 
 impl Corner<'_> {
-    /// True if a variable is negative there; none if it is no variable of the bound.
+    /// True if a variable is negative there; none if the bound does not have this variable.
     fn is_negative(&self, leaf: Leaf) -> Option<bool> {
         let lemma = self.lemma?;
         let wanted = VariableOrigin::Leaf(leaf);
@@ -189,7 +189,7 @@ impl Corner<'_> {
     }
 }
 
-/// The input that is a coordinate of the origin, a, b or c.
+/// The place of a coordinate of point 0, 1, 2 or 3 among the inputs: of the origin, a, b or c.
 fn input(point: usize, axis: usize) -> usize {
     match point {
         0 => axis,
@@ -216,12 +216,13 @@ pub fn power_of_half(end: usize, draw: &mut Draw) -> f64 {
     2f64.powi(-halvings)
 }
 
-/// A number between 0 and `most`, the nearer to it the larger the halvings that are drawn.
+/// A number between 0 and `most`; the more often its distance to `most` is halved, the nearer.
 fn slightly_less(most: f64, halvings: usize, draw: &mut Draw) -> f64 {
     let share = draw.unit() * power_of_half(halvings, draw);
     most * (1.0 - share)
 }
 
+/// A number between `least` and twice that, often near it.
 fn slightly_more(least: f64, draw: &mut Draw) -> f64 {
     least * (1.0 + power_of_half(8, draw))
 }
@@ -230,18 +231,19 @@ fn of_either_sign(x: f64, draw: &mut Draw) -> f64 {
     if draw.coin() { x } else { -x }
 }
 
+/// A number between -`most` and `most`, often near an end.
 fn near_either_end(most: f64, draw: &mut Draw) -> f64 {
     let x = slightly_less(most, 12, draw);
     of_either_sign(x, draw)
 }
 
-/// A number between 0 and 1, often near one of both.
+/// A number between 0 and 1, often near one of the two.
 fn near_a_side(draw: &mut Draw) -> f64 {
     let inside = 0.5 * draw.unit() * power_of_half(12, draw);
     if draw.coin() { inside } else { 1.0 - inside }
 }
 
-/// An angle of a triangle at an end of its first edge, often slightly more than the least.
+/// The cotangent of an angle of a triangle, which is often slightly more than the least.
 fn cotangent_of_angle(least: f64, draw: &mut Draw) -> f64 {
     let more = (1.05 - least).max(0.0);
     let angle = if draw.below(4) == 0 {
@@ -252,6 +254,7 @@ fn cotangent_of_angle(least: f64, draw: &mut Draw) -> f64 {
     1.0 / libm::tan(angle)
 }
 
+/// A number between -`bound` and `bound`, mostly near an end.
 fn size_within(bound: f64, draw: &mut Draw) -> f64 {
     let share = match draw.below(3) {
         0 => draw.unit(),
@@ -263,8 +266,8 @@ fn size_within(bound: f64, draw: &mut Draw) -> f64 {
 
 /// Makes the direction one of the edges, so that it lies in the plane if the difference is exact.
 pub fn make_parallel<F: Float>(inputs: &mut Inputs<F>, draw: &mut Draw) {
-    let (from, to) = draw.pick(&[(6, 9), (6, 12), (9, 12)]);
+    let (from, to) = draw.pick(&[(1, 2), (1, 3), (2, 3)]);
     for axis in 0..3 {
-        inputs[3 + axis] = inputs[to + axis] - inputs[from + axis];
+        inputs[3 + axis] = inputs[input(to, axis)] - inputs[input(from, axis)];
     }
 }

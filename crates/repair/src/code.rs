@@ -2,7 +2,7 @@
 
 use crate::arith::recorded::{Comparison, Place};
 use crate::language::Dialect;
-use crate::nodes::{AXES, Node, Nodes, Scope};
+use crate::nodes::{Node, Nodes, Scope};
 use crate::prove::repair::{Axes, Guarded, Literal, Pattern, Step};
 use std::collections::BTreeSet;
 
@@ -19,19 +19,15 @@ impl<'a> Code<'a> {
     /// The lines of a guarded kernel's body.
     pub fn body(guarded: &'a Guarded, dialect: Dialect) -> Vec<String> {
         let steps = guarded.steps.all();
-        let roots = steps
-            .iter()
-            .flat_map(|step| roots_of(step, guarded))
-            .collect();
-        let nodes = Nodes::new(guarded, dialect, roots);
+        let roots = steps.iter().flat_map(|step| roots_of(step, guarded));
         let mut code = Code {
-            nodes,
+            nodes: Nodes::new(guarded, dialect, roots.collect()),
             guarded,
             dialect,
             lines: Vec::new(),
             depth: 1,
         };
-        // Some gate may stay open.
+        // A gate that cannot decide stays open, so that the end asks.
         if steps.iter().any(|step| matches!(step, Step::Gate(..))) {
             code.line(dialect.open());
         }
@@ -40,8 +36,16 @@ impl<'a> Code<'a> {
     }
 
     fn line(&mut self, text: impl AsRef<str>) {
-        self.lines
-            .push(format!("{}{}", "    ".repeat(self.depth), text.as_ref()));
+        let indent = "    ".repeat(self.depth);
+        self.lines.push(indent + text.as_ref());
+    }
+
+    /// The head of a block, and a step inside it.
+    fn block(&mut self, head: impl AsRef<str>, step: &Step, scope: &Scope) {
+        self.line(head);
+        self.depth += 1;
+        self.step(step, scope.clone());
+        self.depth -= 1;
     }
 
     fn define(&mut self, nodes: &[Node], scope: &mut Scope) {
@@ -50,122 +54,98 @@ impl<'a> Code<'a> {
         }
     }
 
+    /// Defines the signs of all numbers in some literals.
     fn signs(&mut self, literals: &[&Literal], scope: &mut Scope) {
         let places: BTreeSet<Place> = literals
             .iter()
             .flat_map(|literal| literal.places())
             .collect();
         for place in places {
-            if !scope.signs.insert(place) {
-                continue;
+            if scope.signs.insert(place) {
+                self.sign(place, scope);
             }
-            let margin = self.guarded.margins[&place];
-            let is_exact = margin.factor.is_zero();
-            let value = Node::Value(place);
-            let size = Node::Size(place, false);
-            let nodes = [value, size];
-            self.define(&nodes[..if is_exact { 1 } else { 2 }], scope);
-            let x = self.nodes.text(value);
-            let call = if is_exact {
-                format!("{}({x})", self.dialect.function("exact_sign"))
-            } else {
-                let factor = self.dialect.number(margin.factor.to_f64());
-                let function = self.dialect.function("sure_sign");
-                format!("{function}({x}, {}, {factor})", self.nodes.text(size))
-            };
-            self.line(self.dialect.integer(&self.sign_name(place), &call));
         }
+    }
+
+    /// Defines the sign of a number: 1 or -1 if it is certain, else 0.
+    fn sign(&mut self, place: Place, scope: &mut Scope) {
+        let factor = self.guarded.margins[&place].factor;
+        let value = Node::Value(place);
+        let call = if factor.is_zero() {
+            self.define(&[value], scope);
+            let function = self.dialect.function("exact_sign");
+            format!("{function}({})", self.nodes.text(value))
+        } else {
+            let size = Node::size(place);
+            self.define(&[value, size], scope);
+            let function = self.dialect.function("sure_sign");
+            let x = self.nodes.text(value);
+            let size = self.nodes.text(size);
+            let factor = self.dialect.number(factor.to_f64());
+            format!("{function}({x}, {size}, {factor})")
+        };
+        self.line(self.dialect.integer(&self.sign_name(place), &call));
     }
 
     fn sign_name(&self, place: Place) -> String {
         format!("sign_{}", self.nodes.plain_name(place))
     }
 
-    /// A condition that a literal surely holds.
-    fn literal(
-        &self,
-        Literal {
-            is_negative,
-            signs,
-            nonzero,
-        }: &Literal,
-    ) -> Vec<String> {
-        let signs: Vec<String> = signs.iter().map(|place| self.sign_name(*place)).collect();
-        let mut parts: Vec<String> = nonzero
-            .iter()
-            .map(|place| format!("{} != 0", self.sign_name(*place)))
-            .collect();
-        if !signs.is_empty() {
-            parts.push(format!(
-                "{} {} 0",
-                signs.join(" * "),
-                if *is_negative { "<" } else { ">" }
-            ));
+    /// The conditions that together make sure that a literal holds.
+    fn conditions(&self, literal: &Literal) -> Vec<String> {
+        let mut conditions = Vec::new();
+        for place in &literal.nonzero {
+            conditions.push(format!("{} != 0", self.sign_name(*place)));
         }
-        parts
+        if !literal.signs.is_empty() {
+            let signs = literal.signs.iter().map(|place| self.sign_name(*place));
+            let product = signs.collect::<Vec<String>>().join(" * ");
+            let order = if literal.is_negative { "<" } else { ">" };
+            conditions.push(format!("{product} {order} 0"));
+        }
+        conditions
     }
 
+    /// The condition that makes sure that one of some patterns holds.
     fn patterns(&self, patterns: &[Pattern]) -> String {
-        let text = |pattern: &Pattern| {
-            pattern
-                .iter()
-                .flat_map(|it| self.literal(it))
-                .collect::<Vec<_>>()
-        };
-        let all: Vec<Vec<String>> = patterns.iter().map(text).collect();
-        let is_single = all.len() == 1;
-        let one = |parts: &Vec<String>| {
-            let text = parts.join(" && ");
-            if is_single || parts.len() == 1 {
-                text
+        let mut alternatives = Vec::new();
+        for pattern in patterns {
+            let parts = pattern.iter().flat_map(|literal| self.conditions(literal));
+            let parts: Vec<String> = parts.collect();
+            let all = parts.join(" && ");
+            let needs_brackets = 1 < patterns.len() && parts.len() != 1;
+            alternatives.push(if needs_brackets {
+                format!("({all})")
             } else {
-                format!("({text})")
-            }
-        };
-        all.iter().map(one).collect::<Vec<_>>().join(" || ")
+                all
+            });
+        }
+        alternatives.join(" || ")
     }
 
     fn step(&mut self, step: &Step, mut scope: Scope) {
         match step {
             Step::Choice(comparison, yes, no) => {
                 let condition = self.comparison(comparison, &mut scope);
-                let ways = [(condition, yes), (String::new(), no)];
-                self.branch(ways, |code, step| code.step(step, scope.clone()));
+                self.block(self.dialect.if_(&condition), yes, &scope);
+                self.block("} else {", no, &scope);
+                self.line("}");
             }
             Step::Sign(literal, yes, no) => {
                 self.signs(&[literal], &mut scope);
-                let [yes_if, no_if] =
-                    [literal.clone(), literal.negated()].map(|it| self.literal(&it).join(" && "));
-                let ways = [(yes_if, &**yes), (no_if, no), (String::new(), &Step::Ask)];
-                self.branch(ways, |code, step| code.step(step, scope.clone()));
+                let holds = self.conditions(literal).join(" && ");
+                let opposite = self.conditions(&literal.negated()).join(" && ");
+                let or_else = format!("}} else {}", self.dialect.if_(&opposite));
+                self.block(self.dialect.if_(&holds), yes, &scope);
+                self.block(or_else, no, &scope);
+                self.block("} else {", &Step::Ask, &scope);
+                self.line("}");
             }
             Step::Gate(gate, [hits, misses], next) => {
-                let literals: Vec<&Literal> = hits.iter().chain(misses).flatten().collect();
-                let name = self.guarded.info.gates[*gate].name;
                 let start = self.lines.len();
-                self.signs(&literals, &mut scope);
-                if !misses.is_empty() {
-                    let places = || misses.iter().flatten().flat_map(Literal::places);
-                    let is_of = |end: u8| places().any(|place| self.guarded.uses_end(place, end));
-                    let mut condition = self.patterns(misses);
-                    for (end, known) in [(0, "t_from == t_min"), (1, "t_to == t_max")] {
-                        if is_of(end) {
-                            let wrapped = if condition.contains("||") {
-                                format!("({condition})")
-                            } else {
-                                condition
-                            };
-                            condition = format!("{known} && {wrapped}");
-                        }
-                    }
-                    self.line(self.dialect.early(&condition, "MISS"));
-                }
-                match &hits[..] {
-                    [] => self.line(self.dialect.assign_open("")),
-                    [pattern] if pattern.is_empty() => {}
-                    _ => self.line(self.dialect.assign_open(&self.patterns(hits))),
-                }
+                self.gate(hits, misses, &mut scope);
                 if start < self.lines.len() {
+                    let name = self.guarded.info.gates[*gate].name;
                     let comment = format!("{}// gate {name}", "    ".repeat(self.depth));
                     self.lines.insert(start, self.dialect.comment(&comment));
                 }
@@ -177,41 +157,58 @@ impl<'a> Code<'a> {
                 self.nodes.is_renamed = true;
                 self.step(next, Scope::default());
             }
-            Step::Hit(values) => {
-                self.line(self.dialect.early("open", "ASK"));
-                let given: Vec<Option<Node>> =
-                    values.iter().map(|place| place.map(Node::Value)).collect();
-                let nodes: Vec<Node> = given.iter().flatten().copied().collect();
-                self.define(&nodes, &mut scope);
-                let text = |node: &Option<Node>| node.map(|node| self.nodes.text(node));
-                let values: Vec<Option<String>> = given.iter().map(text).collect();
-                for line in self.dialect.hit(&values) {
-                    self.line(line);
-                }
-            }
+            Step::Hit(values) => self.hit(values, &mut scope),
             Step::Ask => self.line(self.dialect.answer("ASK")),
         }
     }
 
-    fn branch<T, const N: usize>(
-        &mut self,
-        ways: [(String, T); N],
-        mut body: impl FnMut(&mut Self, T),
-    ) {
-        for (i, (condition, way)) in ways.into_iter().enumerate() {
-            let head = match (i, condition.as_str()) {
-                (0, condition) => self.dialect.if_(condition),
-                (_, "") => "} else {".to_owned(),
-                (_, condition) => format!("}} else {}", self.dialect.if_(condition)),
-            };
-            self.line(head);
-            self.depth += 1;
-            body(self, way);
-            self.depth -= 1;
+    /// Misses if a pattern of misses surely holds, and leaves the gate open unless one of hits does.
+    fn gate(&mut self, hits: &[Pattern], misses: &[Pattern], scope: &mut Scope) {
+        let literals: Vec<&Literal> = hits.iter().chain(misses).flatten().collect();
+        self.signs(&literals, scope);
+        if !misses.is_empty() {
+            let condition = self.sure_miss(misses);
+            self.line(self.dialect.early(&condition, "MISS"));
         }
-        self.line("}");
+        match hits {
+            [] => self.line(self.dialect.assign_open("")),
+            // Nothing has to hold.
+            [pattern] if pattern.is_empty() => {}
+            _ => self.line(self.dialect.assign_open(&self.patterns(hits))),
+        }
     }
 
+    /// The condition for a miss. An end of the interval that it depends on must not have been cut to the largest size.
+    fn sure_miss(&self, misses: &[Pattern]) -> String {
+        let literals = misses.iter().flatten();
+        let places: Vec<Place> = literals.flat_map(Literal::places).collect();
+        let mut condition = self.patterns(misses);
+        for (end, is_whole) in [(0, "t_from == t_min"), (1, "t_to == t_max")] {
+            let depends = |place: &Place| self.guarded.uses_end(*place, end);
+            if !places.iter().any(depends) {
+                continue;
+            }
+            if condition.contains("||") {
+                condition = format!("({condition})");
+            }
+            condition = format!("{is_whole} && {condition}");
+        }
+        condition
+    }
+
+    /// Asks if a gate is open, and else returns a hit with these values.
+    fn hit(&mut self, values: &[Option<Place>; 3], scope: &mut Scope) {
+        self.line(self.dialect.early("open", "ASK"));
+        let nodes = values.map(|value| value.map(Node::Value));
+        let given: Vec<Node> = nodes.into_iter().flatten().collect();
+        self.define(&given, scope);
+        let texts = nodes.map(|node| Some(self.nodes.text(node?)));
+        for line in self.dialect.hit(&texts) {
+            self.line(line);
+        }
+    }
+
+    /// The condition of a comparison, whose numbers are defined first.
     fn comparison(&mut self, comparison: &Comparison, scope: &mut Scope) -> String {
         let nodes: Vec<Node> = comparison.places().into_iter().map(Node::Value).collect();
         self.define(&nodes, scope);
@@ -225,19 +222,21 @@ impl<'a> Code<'a> {
         }
     }
 
-    /// The names of the axes.
+    /// Assigns the names of the axes.
     fn axes(&mut self, axes: &Axes, scope: &mut Scope) {
         match axes {
-            Axes::Are(axes) => {
-                let set: Vec<String> = (0..3)
-                    .map(|i| format!("{} = {};", AXES[i], axes[i]))
-                    .collect();
-                self.line(set.join(" "));
-            }
+            Axes::Are([x, y, z]) => self.line(format!("x = {x}; y = {y}; z = {z};")),
             Axes::If(comparison, yes, no) => {
                 let condition = self.comparison(comparison, scope);
-                let ways = [(condition, yes), (String::new(), no)];
-                self.branch(ways, |code, axes| code.axes(axes, scope));
+                self.line(self.dialect.if_(&condition));
+                self.depth += 1;
+                self.axes(yes, scope);
+                self.depth -= 1;
+                self.line("} else {");
+                self.depth += 1;
+                self.axes(no, scope);
+                self.depth -= 1;
+                self.line("}");
             }
         }
     }
@@ -245,22 +244,18 @@ impl<'a> Code<'a> {
 
 /// The nodes that a step names.
 fn roots_of(step: &Step, guarded: &Guarded) -> Vec<Node> {
-    let signs: Vec<Place> = step
-        .literals()
-        .into_iter()
-        .flat_map(Literal::places)
-        .collect();
-    let has_size = |place: &&Place| !guarded.margins[*place].factor.is_zero();
-    let sizes = signs
-        .iter()
-        .filter(has_size)
-        .map(|place| Node::Size(*place, false));
+    let mut roots = Vec::new();
+    for place in step.literals().into_iter().flat_map(Literal::places) {
+        roots.push(Node::Value(place));
+        if !guarded.margins[&place].factor.is_zero() {
+            roots.push(Node::size(place));
+        }
+    }
     let values = match step {
         Step::Choice(comparison, ..) => comparison.places(),
         Step::Hit(values) => values.iter().flatten().copied().collect(),
         _ => vec![],
     };
-    sizes
-        .chain(signs.iter().chain(&values).copied().map(Node::Value))
-        .collect()
+    roots.extend(values.into_iter().map(Node::Value));
+    roots
 }

@@ -41,6 +41,24 @@ impl Language {
     }
 }
 
+/// An expression, by how tightly it binds.
+pub enum Expression {
+    /// A sum or a difference.
+    Sum(String),
+    /// A product, a quotient or a negative number.
+    Product(String),
+    /// A name, a literal or a call.
+    Name(String),
+}
+
+impl Expression {
+    pub fn text(self) -> String {
+        match self {
+            Expression::Sum(text) | Expression::Product(text) | Expression::Name(text) => text,
+        }
+    }
+}
+
 /// A language, and the scalar of a kernel in it.
 #[derive(Clone, Copy)]
 pub struct Dialect {
@@ -90,13 +108,13 @@ impl Dialect {
         }
     }
 
-    /// A sum or a difference with an input among its terms, and how tightly it binds. C has functions for it, which a product
-    /// that the caller passes is not fused into.
-    pub fn sum_of_input(self, sign: &str, [x, y]: [&str; 2]) -> (String, u8) {
+    /// A sum or a difference with an input among its terms. C has functions for it, which a product that the caller passes
+    /// is not fused into.
+    pub fn sum_of_input(self, sign: &str, [x, y]: [&str; 2]) -> Expression {
         let name = if sign == "+" { "sum" } else { "difference" };
         match self.language {
-            C | Cuda => (format!("{}({x}, {y})", self.function(name)), 2),
-            _ => (format!("{x} {sign} {y}"), 0),
+            C | Cuda => Expression::Name(format!("{}({x}, {y})", self.function(name))),
+            _ => Expression::Sum(format!("{x} {sign} {y}")),
         }
     }
 

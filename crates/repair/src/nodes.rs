@@ -2,16 +2,30 @@
 
 use crate::arith::Vector;
 use crate::arith::recorded::{Operation, Place};
-use crate::language::Dialect;
+use crate::language::{Dialect, Expression};
 use crate::prove::repair::Guarded;
 use crate::prove::{Leaf, Sample, run};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// A number's value; or its size, with slack or without.
+/// A number that the code computes: the value of an operation, or its size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Node {
     Value(Place),
-    Size(Place, bool),
+    Size { place: Place, has_slack: bool },
+}
+
+impl Node {
+    /// The size without slack.
+    pub fn size(place: Place) -> Node {
+        let has_slack = false;
+        Node::Size { place, has_slack }
+    }
+
+    fn place(self) -> Place {
+        match self {
+            Node::Value(place) | Node::Size { place, .. } => place,
+        }
+    }
 }
 
 /// The names that are known at some point of the code.
@@ -21,7 +35,7 @@ pub struct Scope {
     pub signs: HashSet<Place>,
 }
 
-/// All of them in one kernel.
+/// The nodes of one kernel.
 pub struct Nodes<'a> {
     guarded: &'a Guarded,
     dialect: Dialect,
@@ -33,23 +47,23 @@ pub struct Nodes<'a> {
 }
 
 impl<'a> Nodes<'a> {
-    /// The nodes that some of them need.
+    /// The roots, and all nodes that they need.
     pub fn new(guarded: &'a Guarded, dialect: Dialect, mut roots: Vec<Node>) -> Nodes<'a> {
-        let (names, uses) = (names(guarded), HashMap::new());
         let mut nodes = Nodes {
             guarded,
             dialect,
-            names,
-            uses,
+            names: names(guarded),
+            uses: HashMap::new(),
             is_renamed: false,
         };
         roots.sort();
         roots.dedup();
-        let mut seen = HashSet::new();
-        while let Some(node) = roots.pop() {
-            *nodes.uses.entry(node).or_default() += 1;
-            if seen.insert(node) {
-                roots.extend(nodes.operands(node));
+        let mut open = roots;
+        while let Some(node) = open.pop() {
+            let uses = nodes.uses.entry(node).or_default();
+            *uses += 1;
+            if *uses == 1 {
+                open.extend(nodes.operands(node));
             }
         }
         nodes
@@ -57,143 +71,175 @@ impl<'a> Nodes<'a> {
 
     /// A node as it stands in an expression: its name, or the expression that it is.
     pub fn text(&self, node: Node) -> String {
-        if self.is_inline(node) {
-            self.expression(node).0
-        } else {
-            self.name(node)
-        }
+        self.whole(node).text()
     }
 
     /// The name of a number, inputs included.
     pub fn plain_name(&self, place: Place) -> String {
-        match self.guarded.operations[place as usize] {
+        match self.operation(place) {
             Operation::Input(i) => self.input(i).replace(['[', '.'], "_").replace(']', ""),
             _ => self.names[place as usize].clone(),
         }
     }
 
+    fn operation(&self, place: Place) -> Operation {
+        self.guarded.operations[place as usize]
+    }
+
     fn operands(&self, node: Node) -> Vec<Node> {
-        let (Node::Value(place) | Node::Size(place, _)) = node;
         match node {
-            Node::Size(..) if self.guarded.is_leaf(place) => vec![Node::Value(place)],
-            Node::Size(_, true) => vec![Node::Size(place, false)],
+            Node::Size { place, .. } if self.guarded.is_leaf(place) => vec![Node::Value(place)],
+            Node::Size {
+                place,
+                has_slack: true,
+            } => vec![Node::size(place)],
             _ => {
-                let operation = self.guarded.operations[place as usize];
-                let part = |part| self.part(node, operation, part);
-                operation.operands().into_iter().map(part).collect()
+                let parts = self.operation(node.place()).operands();
+                parts
+                    .into_iter()
+                    .map(|part| self.part(node, part))
+                    .collect()
             }
         }
     }
 
-    /// A part of a value is a value; of a size it is a size.
-    fn part(&self, whole: Node, operation: Operation, place: Place) -> Node {
-        match (whole, operation) {
-            (Node::Value(_), _) => Node::Value(place),
-            (_, Operation::Mul(..)) => self.factor(place),
-            _ => Node::Size(place, false),
+    /// The node of a node's operand: a part of a value is a value, a part of a size is a size. Factors are those that may
+    /// need slack.
+    fn part(&self, whole: Node, place: Place) -> Node {
+        let Node::Size { place: product, .. } = whole else {
+            return Node::Value(place);
+        };
+        let is_factor = matches!(self.operation(product), Operation::Mul(..));
+        Node::Size {
+            place,
+            has_slack: is_factor && self.guarded.sizes().needs_slack(place),
         }
-    }
-
-    fn factor(&self, place: Place) -> Node {
-        Node::Size(place, self.guarded.sizes().needs_slack(place))
     }
 
     /// True if a node stands in the expression that uses it.
     fn is_inline(&self, node: Node) -> bool {
-        let (Node::Value(place) | Node::Size(place, _)) = node;
-        let operation = self.guarded.operations[place as usize];
         use Operation::{Abs, Input, Neg, Number};
-        match (node, operation) {
-            (Node::Value(_), Input(_) | Number(_) | Neg(_) | Abs(_)) => true,
-            // Where it is compared it has its name.
-            (Node::Value(_), _) if self.guarded.margins.contains_key(&place) => false,
-            (Node::Value(_), _) => self.uses[&node] == 1 && !self.guarded.is_leaf(place),
-            (Node::Size(..), _) => self.uses[&node] == 1,
+        let is_used_once = || self.uses[&node] == 1;
+        let Node::Value(place) = node else {
+            return is_used_once();
+        };
+        match self.operation(place) {
+            Input(_) | Number(_) | Neg(_) | Abs(_) => true,
+            // A number that is compared is named, since its size and its sign are named after it.
+            _ if self.guarded.margins.contains_key(&place) => false,
+            _ => is_used_once() && !self.guarded.is_leaf(place),
         }
     }
 
     /// True if a number is an input but for its sign.
     fn is_input(&self, place: Place) -> bool {
-        match self.guarded.operations[place as usize] {
+        match self.operation(place) {
             Operation::Input(_) => true,
             Operation::Neg(a) | Operation::Abs(a) => self.is_input(a),
             _ => false,
         }
     }
 
-    /// A node's name or its expression, and how tightly that binds.
-    fn whole(&self, node: Node) -> (String, u8) {
+    /// A node's name or its expression.
+    fn whole(&self, node: Node) -> Expression {
         if self.is_inline(node) {
             self.expression(node)
         } else {
-            (self.name(node), 2)
+            Expression::Name(self.name(node))
         }
     }
 
-    /// The same as an operand, in brackets if it binds less tightly than the operation.
-    fn operand(&self, node: Node, least: u8) -> String {
-        let (text, binds) = self.whole(node);
-        if binds < least {
-            format!("({text})")
+    /// A node as a factor: a sum in brackets.
+    fn factor(&self, node: Node) -> String {
+        match self.whole(node) {
+            Expression::Sum(text) => format!("({text})"),
+            whole => whole.text(),
+        }
+    }
+
+    /// A node behind a sign that takes only what is nearest: all but a name in brackets.
+    fn nearest(&self, node: Node) -> String {
+        match self.whole(node) {
+            Expression::Name(text) => text,
+            whole => format!("({})", whole.text()),
+        }
+    }
+
+    /// The expression of a node.
+    fn expression(&self, node: Node) -> Expression {
+        match node {
+            Node::Size {
+                place,
+                has_slack: true,
+            } => self.with_slack(place),
+            Node::Size { place, .. } if self.guarded.is_leaf(place) => {
+                Expression::Name(self.leaf_size(place))
+            }
+            _ => self.result(node),
+        }
+    }
+
+    /// The absolute value of a leaf.
+    fn leaf_size(&self, place: Place) -> String {
+        match self.operation(place) {
+            Operation::Number(x) => self.dialect.number(f64::from(x).abs()),
+            _ => self.dialect.abs(&self.text(Node::Value(place))),
+        }
+    }
+
+    fn with_slack(&self, place: Place) -> Expression {
+        let size = if self.guarded.is_leaf(place) {
+            self.leaf_size(place)
         } else {
-            text
-        }
-    }
-
-    /// A sum or a difference.
-    fn sum(&self, whole: Node, sign: &str, terms: [Place; 2]) -> (String, u8) {
-        let (Node::Value(place) | Node::Size(place, _)) = whole;
-        let operation = self.guarded.operations[place as usize];
-        let [x, y] = terms.map(|term| self.part(whole, operation, term));
-        let [x, y] = [self.operand(x, 0), self.operand(y, 1)];
-        if terms.iter().any(|term| self.is_input(*term)) {
-            return self.dialect.sum_of_input(sign, [&x, &y]);
-        }
-        (format!("{x} {sign} {y}"), 0)
-    }
-
-    /// The expression of a node, and how tightly it binds: 0 a sum, 1 a product, 2 a name.
-    fn expression(&self, node: Node) -> (String, u8) {
-        let product = |a, sign: &str, b| {
-            (
-                format!("{} {sign} {}", self.operand(a, 1), self.operand(b, 2)),
-                1,
-            )
+            self.text(Node::size(place))
         };
-        let (Node::Value(place) | Node::Size(place, _)) = node;
-        let operation = self.guarded.operations[place as usize];
-        let is_leaf = self.guarded.is_leaf(place);
-        if let Node::Size(_, slack) = node
-            && (slack || is_leaf)
-        {
-            let size = match operation {
-                _ if !is_leaf => self.operand(Node::Size(place, false), 0),
-                Operation::Number(x) => self.dialect.number(f64::from(x).abs()),
-                _ => self.dialect.abs(&self.operand(Node::Value(place), 0)),
-            };
-            return match slack {
-                false => (size, 2),
-                true if self.is_input(place) => self.dialect.sum_of_input("+", [&size, "SLACK"]),
-                true => (format!("{size} + SLACK"), 0),
-            };
+        if self.is_input(place) {
+            return self.dialect.sum_of_input("+", [&size, "SLACK"]);
         }
-        let is_size = matches!(node, Node::Size(..));
-        let part = |place: Place| self.part(node, operation, place);
-        match operation {
-            Operation::Input(i) => (self.input(i), 2),
-            Operation::Number(x) => (self.dialect.number(x.into()), 2),
+        Expression::Sum(format!("{size} + SLACK"))
+    }
+
+    /// The expression of an operation on its operands' values, or of its size from their sizes.
+    fn result(&self, node: Node) -> Expression {
+        let is_size = matches!(node, Node::Size { .. });
+        let part = |place: Place| self.part(node, place);
+        match self.operation(node.place()) {
+            Operation::Input(i) => Expression::Name(self.input(i)),
+            Operation::Number(x) => Expression::Name(self.dialect.number(x.into())),
             Operation::Add(a, b) => self.sum(node, "+", [a, b]),
-            Operation::Sub(a, b) => self.sum(node, if is_size { "+" } else { "-" }, [a, b]),
-            Operation::Mul(a, b) => product(part(a), "*", part(b)),
-            Operation::Div(a, b) => product(part(a), "/", part(b)),
+            Operation::Sub(a, b) if is_size => self.sum(node, "+", [a, b]),
+            Operation::Sub(a, b) => self.sum(node, "-", [a, b]),
+            Operation::Mul(a, b) => self.product(part(a), "*", part(b)),
+            Operation::Div(a, b) => self.product(part(a), "/", part(b)),
             Operation::Neg(a) | Operation::Abs(a) if is_size => self.whole(part(a)),
-            Operation::Neg(a) => (format!("-{}", self.operand(part(a), 2)), 1),
-            Operation::Abs(a) => (self.dialect.abs(&self.operand(part(a), 0)), 2),
-            Operation::Sqrt(a) => (self.dialect.sqrt(&self.operand(part(a), 0)), 2),
+            Operation::Neg(a) => {
+                let negated = self.nearest(part(a));
+                Expression::Product(format!("-{negated}"))
+            }
+            Operation::Abs(a) => Expression::Name(self.dialect.abs(&self.text(part(a)))),
+            Operation::Sqrt(a) => Expression::Name(self.dialect.sqrt(&self.text(part(a)))),
             Operation::Fma(..) | Operation::Minor(..) => {
                 unreachable!("kernels that fuse are refused")
             }
         }
+    }
+
+    /// A sum or a difference.
+    fn sum(&self, whole: Node, sign: &str, terms: [Place; 2]) -> Expression {
+        let [x, y] = terms.map(|term| self.part(whole, term));
+        let x = self.text(x);
+        let y = self.factor(y);
+        if terms.iter().any(|term| self.is_input(*term)) {
+            return self.dialect.sum_of_input(sign, [&x, &y]);
+        }
+        Expression::Sum(format!("{x} {sign} {y}"))
+    }
+
+    /// A product or a quotient.
+    fn product(&self, a: Node, sign: &str, b: Node) -> Expression {
+        let a = self.factor(a);
+        let b = self.nearest(b);
+        Expression::Product(format!("{a} {sign} {b}"))
     }
 
     fn input(&self, i: u8) -> String {
@@ -213,65 +259,87 @@ impl<'a> Nodes<'a> {
     }
 
     fn name(&self, node: Node) -> String {
-        match node {
-            Node::Value(place) => self.names[place as usize].clone(),
-            Node::Size(place, slack) => {
-                let name = self.plain_name(place);
-                // Of two sizes of one number the one without slack is a sum's.
-                let sum = if slack || !self.uses.contains_key(&Node::Size(place, true)) {
-                    ""
-                } else {
-                    "_sum"
-                };
-                format!("size{sum}_{name}")
-            }
-        }
+        let Node::Size { place, has_slack } = node else {
+            return self.names[node.place() as usize].clone();
+        };
+        let name = self.plain_name(place);
+        let with_slack = Node::Size {
+            place,
+            has_slack: true,
+        };
+        // Of two sizes of one number the one without slack is a sum's.
+        let is_of_sum = !has_slack && self.uses.contains_key(&with_slack);
+        let size = if is_of_sum { "size_sum" } else { "size" };
+        format!("{size}_{name}")
     }
 
-    /// Defines what some nodes need, and they themselves.
+    /// Defines some nodes and all that they need, as far as the scope does not know them.
     pub fn define(&self, nodes: &[Node], scope: &mut Scope) -> Vec<String> {
-        let mut lines = Vec::new();
-        let mut open: Vec<Node> = nodes.to_vec();
+        let mut open = nodes.to_vec();
         let mut needed = BTreeSet::new();
         while let Some(node) = open.pop() {
             if !scope.nodes.contains(&node) && needed.insert(node) {
                 open.extend(self.operands(node));
             }
         }
-        // Vectors first, coordinate by coordinate.
         let mut ordered: Vec<Node> = needed.into_iter().collect();
-        ordered.sort_by_key(|node| match *node {
-            Node::Value(place) if self.guarded.is_leaf(place) => (0, self.name(*node), *node),
-            Node::Value(_) => (1, String::new(), *node),
-            Node::Size(place, _) if self.guarded.is_leaf(place) => (2, self.name(*node), *node),
-            Node::Size(..) => (3, String::new(), *node),
-        });
+        ordered.sort_by_key(|node| self.order(*node));
+        scope.nodes.extend(&ordered);
+        self.definitions(&ordered)
+    }
+
+    /// The order of definitions: values before sizes, and in both the leaves first, by name, so that the coordinates of a
+    /// vector stand together.
+    fn order(&self, node: Node) -> (bool, bool, String, Node) {
+        let is_size = matches!(node, Node::Size { .. });
+        let is_leaf = self.guarded.is_leaf(node.place());
+        let name = if is_leaf {
+            self.name(node)
+        } else {
+            String::new()
+        };
+        (is_size, !is_leaf, name, node)
+    }
+
+    /// The definitions of nodes that are not inline, the coordinates of a vector on one line.
+    fn definitions(&self, nodes: &[Node]) -> Vec<String> {
+        let mut lines = Vec::new();
         let mut group: Vec<(String, String)> = Vec::new();
-        for node in ordered {
-            scope.nodes.insert(node);
-            if self.is_inline(node) {
+        for node in nodes {
+            if self.is_inline(*node) {
                 continue;
             }
-            let (name, (expression, _)) = (self.name(node), self.expression(node));
-            let stem = |name: &str| name.rsplit_once('_').map(|(stem, _)| stem.to_owned());
-            let length: usize = group
-                .iter()
-                .map(|(name, text)| name.len() + text.len() + 16)
-                .sum();
-            let fits = group
-                .last()
-                .is_none_or(|(last, _)| stem(last).is_some() && stem(last) == stem(&name));
-            if !fits || 120 < length + expression.len() {
+            let name = self.name(*node);
+            let text = self.expression(*node).text();
+            if !fits(&group, &name, &text) {
                 lines.push(self.dialect.definitions(&group));
                 group.clear();
             }
-            group.push((name, expression));
+            group.push((name, text));
         }
         if !group.is_empty() {
             lines.push(self.dialect.definitions(&group));
         }
         lines
     }
+}
+
+/// True if a definition has its place on the line of some others: it is of the same vector, and the line is short enough.
+fn fits(line: &[(String, String)], name: &str, text: &str) -> bool {
+    let Some((last, _)) = line.last() else {
+        return true;
+    };
+    let Some((vector, _)) = last.rsplit_once('_') else {
+        return false;
+    };
+    let is_of_vector = name
+        .rsplit_once('_')
+        .is_some_and(|(stem, _)| stem == vector);
+    let mut length = text.len();
+    for (name, text) in line {
+        length += name.len() + text.len() + 16;
+    }
+    is_of_vector && length <= 120
 }
 
 /// Inputs at which numbers show what they are.
@@ -286,60 +354,63 @@ pub fn names(guarded: &Guarded) -> Vec<String> {
     let mut values = Vec::new();
     run(operations, &SAMPLE, &mut values);
     let known = known();
-    let (mut taken, mut names) = (HashSet::new(), Vec::new());
-    for (place, operation) in operations.iter().enumerate() {
-        let is_known = |(_, value): &&(&str, f64)| {
-            (values[place].abs() - value.abs()).abs() <= 1e-9 * value.abs()
-        };
-        let found = match Leaf::of(*operation, operations) {
+    let mut names = Vec::new();
+    for (operation, value) in operations.iter().zip(values) {
+        let meaning = match Leaf::of(*operation, operations) {
             Some(Leaf::Difference(p, q, axis)) => {
                 Some(format!("{}{}_{}", POINTS[q], POINTS[p], AXES[axis]))
             }
             Some(leaf) => Some(format!("{leaf:?}")),
-            None => cross(operations, operation, &names).or_else(|| {
-                known
-                    .iter()
-                    .find(is_known)
-                    .map(|(name, _)| (*name).to_owned())
-            }),
+            None => cross(operations, operation, &names).or_else(|| named_by_value(&known, value)),
         };
-        let stem = found.unwrap_or_else(|| "n".to_owned());
-        let numbered = (1..).map(|i| format!("{stem}{i}"));
-        let first = (stem != "n").then(|| stem.clone());
-        let mut all = first.into_iter().chain(numbered);
-        let name = all
-            .find(|name| !taken.contains(name))
-            .expect("names do not end");
-        taken.insert(name.clone());
-        names.push(name);
+        names.push(free_name(meaning, &names));
     }
     names
+}
+
+/// The known number that is a value, but for its sign and for rounding.
+fn named_by_value(known: &[(&str, f64)], value: f64) -> Option<String> {
+    let is_equal = |known: f64| (value.abs() - known.abs()).abs() <= 1e-9 * known.abs();
+    let (name, _) = known.iter().find(|(_, known)| is_equal(*known))?;
+    Some((*name).to_owned())
+}
+
+/// A name that is not taken: the number's meaning, with a number behind it if need be.
+fn free_name(meaning: Option<String>, taken: &[String]) -> String {
+    let stem = match meaning {
+        Some(name) if !taken.contains(&name) => return name,
+        Some(name) => name,
+        None => "n".to_owned(),
+    };
+    let mut numbered = (1..).map(|i| format!("{stem}{i}"));
+    let free = numbered.find(|name| !taken.contains(name));
+    free.expect("names do not end")
 }
 
 /// The origin and the vertices.
 const POINTS: [&str; 4] = ["o", "a", "b", "c"];
 /// The axes.
-pub const AXES: [&str; 3] = ["x", "y", "z"];
+const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The name of a coordinate of a cross product, of vectors with names.
+/// The name of a coordinate of a cross product: v_j·w_k - v_k·w_j, of vectors with names.
 fn cross(operations: &[Operation], operation: &Operation, names: &[String]) -> Option<String> {
     let Operation::Sub(p, q) = *operation else {
         return None;
     };
-    let factors = |place: Place| match operations[place as usize] {
-        Operation::Mul(a, b) => Some([a, b].map(|place| vector(operations, place, names))),
-        _ => None,
-    };
-    let ([Some((v, j)), Some((w, k))], [Some(x), Some(y)]) = (factors(p)?, factors(q)?) else {
+    let products = [p, q].map(|place| operations[place as usize]);
+    let [Operation::Mul(a, b), Operation::Mul(c, d)] = products else {
         return None;
     };
-    let is_turned = [&x, &y] == [&(v.clone(), k), &(w.clone(), j)]
-        || [&y, &x] == [&(v.clone(), k), &(w.clone(), j)];
-    (is_turned && (j + 1) % 3 == k).then(|| format!("{v}_{w}_{}", AXES[(k + 1) % 3]))
+    let named = |place| coordinate(operations, place, names);
+    let ((v, j), (w, k)) = (named(a)?, named(b)?);
+    let (x, y) = (named(c)?, named(d)?);
+    let exchanged = [(v.clone(), k), (w.clone(), j)];
+    let is_minor = exchanged == [x.clone(), y.clone()] || exchanged == [y, x];
+    (is_minor && (j + 1) % 3 == k).then(|| format!("{v}_{w}_{}", AXES[(k + 1) % 3]))
 }
 
 /// The vector's name and the axis, if a number is named as a coordinate.
-fn vector(operations: &[Operation], place: Place, names: &[String]) -> Option<(String, usize)> {
+fn coordinate(operations: &[Operation], place: Place, names: &[String]) -> Option<(String, usize)> {
     if let Some(Leaf::Direction(axis)) = Leaf::of(operations[place as usize], operations) {
         return Some(("d".to_owned(), axis));
     }

@@ -1,7 +1,7 @@
-//! Rays that leak: where a kernel is not proved watertight, one that both triangles of an edge refuse.
+//! Rays that leak: where a kernel is not proved watertight, a ray that both triangles of an edge refuse.
 
 use crate::audit::{self, EpsilonChoice, Plan, Row, Source, Unobserved};
-use crate::case::Parameters;
+use crate::case::{Case, Parameters};
 use crate::contract::Direction;
 use crate::family;
 use crate::kernel::{Entry, Role, Scalar, Tunable};
@@ -10,55 +10,55 @@ use crate::report::proofs::Leak;
 /// How many rays are tried, most of them within a few ulps of the edge.
 const TRIES: u64 = 20_000;
 
+const SEED: u64 = 1;
+
 /// The first ray of the family `shared-edge` that crosses both triangles together, by the exact truth, and that the
 /// gates of edges refuse in both, at an epsilon of 0.
 pub fn leak<F: Scalar>(entry: &'static Entry) -> Option<Leak> {
-    let gates = entry.info.gates;
-    let is_zero = |role: Role| matches!(role, Role::Edge | Role::Parallel);
-    let zeros = gates
-        .iter()
-        .filter(|gate| is_zero(gate.role) && gate.epsilon != Tunable::Fixed);
-    let zeros = zeros
-        .map(|gate| format!("{}=0", gate.name))
-        .collect::<Vec<_>>()
-        .join(",");
-    let choice = match &zeros[..] {
-        "" => EpsilonChoice::Source,
-        _ => EpsilonChoice::parse(&zeros).ok()?,
-    };
-    let row: Row = choice.rows(&[entry], None).ok()?.into_iter().next()?;
+    let row = with_zeros(entry)?;
     let family = family::find("shared-edge").expect("a family");
-    let unit_direction = row.contract.direction != Direction::Any;
     let parameters = Parameters {
-        unit_direction,
+        unit_direction: row.contract.direction != Direction::Any,
         ..Parameters::default()
     };
-    let seed = 1;
-    let source = Source::of(family, parameters.clone(), seed, TRIES);
-    let scalars = F::NAME.alone();
-    let (rows, sources) = (vec![row.clone()], vec![source]);
-    let plan = Plan::new(rows, sources, scalars, 64);
+    let source = Source::of(family, parameters.clone(), SEED, TRIES);
+    let plan = Plan::new(vec![row.clone()], vec![source], F::NAME.alone(), 64);
     let cells = audit::run(&plan, &Unobserved).cells;
-    let kernel = F::subject(entry)?.gated()?;
-    let is_of_edges = |index: &&u64| {
-        let made = family.make::<F>(&parameters, seed, **index);
-        made.cases().iter().all(|case| {
-            let margins = kernel.thresholds(case);
-            let mut edges = gates
-                .iter()
-                .zip(&margins)
-                .filter(|(gate, _)| gate.role == Role::Edge);
-            edges.any(|(_, margin)| *margin < F::zero())
-        })
+    let cracks = &cells.first()?.tally.groups.first_cracks;
+    let is_refused_at_edges = |index: u64| {
+        let made = family.make::<F>(&parameters, SEED, index);
+        let mut cases = made.cases().iter();
+        cases.all(|case| refuses_at_an_edge(entry, case))
     };
-    let index = cells
-        .first()?
-        .tally
-        .groups
-        .first_cracks
-        .iter()
-        .find(is_of_edges)?;
-    let case = family.id::<F>(&parameters, seed, *index).to_string();
+    let index = cracks.iter().find(|index| is_refused_at_edges(**index))?;
+    let case = family.id::<F>(&parameters, SEED, *index).to_string();
     let command = row.explain_command(&audit::shell_word(&case));
     Some(Leak { case, command })
+}
+
+/// A kernel whose gates for edges and for parallel rays have an epsilon of 0, if they have one at all.
+fn with_zeros(entry: &'static Entry) -> Option<Row> {
+    let mut zeros = Vec::new();
+    for gate in entry.info.gates {
+        let is_zero = matches!(gate.role, Role::Edge | Role::Parallel);
+        if is_zero && gate.epsilon != Tunable::Fixed {
+            zeros.push(format!("{}=0", gate.name));
+        }
+    }
+    let choice = if zeros.is_empty() {
+        EpsilonChoice::Source
+    } else {
+        EpsilonChoice::parse(&zeros.join(",")).ok()?
+    };
+    choice.rows(&[entry], None).ok()?.into_iter().next()
+}
+
+/// True if a gate of an edge refuses a case at an epsilon of 0.
+fn refuses_at_an_edge<F: Scalar>(entry: &Entry, case: &Case<F>) -> bool {
+    let Some(kernel) = F::subject(entry).and_then(|subject| subject.gated()) else {
+        return false;
+    };
+    let thresholds = kernel.thresholds(case);
+    let mut gates = entry.info.gates.iter().zip(thresholds);
+    gates.any(|(gate, threshold)| gate.role == Role::Edge && threshold < F::zero())
 }

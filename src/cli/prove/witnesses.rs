@@ -25,14 +25,17 @@ pub struct StoredWitness {
 }
 
 impl StoredWitness {
-    /// As numbers of a scalar; none if they are not seventeen.
+    /// Its inputs as numbers of a scalar; none if they are not seventeen.
     pub fn numbers<F: Float>(&self) -> Option<[F; 17]> {
-        let bits = |text: &String| u64::from_str_radix(text, 16).ok().map(F::from_bits);
-        let numbers: Vec<F> = self.inputs.iter().map(bits).collect::<Option<_>>()?;
+        let mut numbers = Vec::new();
+        for text in &self.inputs {
+            let bits = u64::from_str_radix(text, 16).ok()?;
+            numbers.push(F::from_bits(bits));
+        }
         numbers.try_into().ok()
     }
 
-    /// Its place in the file.
+    /// The key by which witnesses are ordered in the file.
     fn key(&self) -> [&str; 4] {
         [&self.kernel, self.scalar.name(), &self.gate, &self.goal]
     }
@@ -48,34 +51,30 @@ impl StoredWitness {
 
 /// The witnesses of a file's text, one a line.
 pub fn read_witnesses(text: &str, path: &str) -> Result<Vec<StoredWitness>, Failure> {
-    let lines = text
-        .lines()
-        .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty());
-    lines
-        .map(|(i, line)| {
-            let witness: StoredWitness = serde_json::from_str(line)
-                .map_err(|error| InputError::at(path, i + 1, error.to_string()))?;
-            if witness.numbers::<f64>().is_none() {
-                return Err(InputError::at(path, i + 1, "not seventeen numbers as bits").into());
-            }
-            Ok(witness)
-        })
-        .collect()
+    let mut witnesses = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        if line.trim().is_empty() {
+            continue;
+        }
+        let wrong = |message: String| InputError::at(path, i + 1, message);
+        let witness: StoredWitness =
+            serde_json::from_str(line).map_err(|error| wrong(error.to_string()))?;
+        if witness.numbers::<f64>().is_none() {
+            return Err(wrong("not seventeen numbers as bits".to_owned()).into());
+        }
+        witnesses.push(witness);
+    }
+    Ok(witnesses)
 }
 
-/// Puts found witnesses in the place of those of the same kernels and scalars; how many are others than before. A stored one that is
-/// still a witness was found again: it was tried.
+/// Puts found witnesses in the place of those of the same kernels and scalars, and returns how many were not stored before.
+/// Nothing is lost: the search tried the stored ones, and found again those that still are witnesses.
 pub fn merge(stored: &mut Vec<StoredWitness>, found: Vec<StoredWitness>) -> usize {
-    let run: BTreeSet<(String, ScalarName)> = found
-        .iter()
-        .map(|it| (it.kernel.clone(), it.scalar))
-        .collect();
-    let changed = found
-        .iter()
-        .filter(|witness| !stored.contains(witness))
-        .count();
-    stored.retain(|it| !run.contains(&(it.kernel.clone(), it.scalar)));
+    let of = |witness: &StoredWitness| (witness.kernel.clone(), witness.scalar);
+    let searched: BTreeSet<(String, ScalarName)> = found.iter().map(of).collect();
+    let is_new = |witness: &&StoredWitness| !stored.contains(witness);
+    let changed = found.iter().filter(is_new).count();
+    stored.retain(|witness| !searched.contains(&of(witness)));
     stored.extend(found);
     stored.sort_by(|a, b| a.key().cmp(&b.key()));
     changed

@@ -7,7 +7,7 @@ use hairline_core::case::Draw;
 
 type Point<F> = [F; 3];
 
-/// A box whose sides are at least 1/16 long, in [-1, 1].
+/// A box in [-1, 1] whose sides are more than 1/16 long.
 struct Room<F> {
     min: Point<F>,
     max: Point<F>,
@@ -18,12 +18,11 @@ impl<F: Float> Room<F> {
         loop {
             let a = draw.point::<F>();
             let b = draw.point::<F>();
-            let room = Room {
-                min: each_axis(|i| a[i].smaller(b[i])),
-                max: each_axis(|i| a[i].larger(b[i])),
-            };
-            if is_away(room.min, room.max) {
-                return room;
+            if is_away(a, b) {
+                return Room {
+                    min: each_axis(|axis| a[axis].smaller(b[axis])),
+                    max: each_axis(|axis| a[axis].larger(b[axis])),
+                };
             }
         }
     }
@@ -33,9 +32,10 @@ impl<F: Float> Room<F> {
         let side = self.max[axis] - self.min[axis];
         let free = 1.0 - 2.0 * share;
         let weight = share + free * draw.unit();
-        self.min[axis] + side * number::<F>(weight)
+        self.min[axis] + side * F::from_f64(weight)
     }
 
+    /// A point inside, away from all planes by this share of the sides at least.
     fn inside(&self, draw: &mut Draw, share: f64) -> Point<F> {
         each_axis(|axis| self.between(draw, axis, share))
     }
@@ -44,36 +44,37 @@ impl<F: Float> Room<F> {
         each_axis(|axis| self.plane(draw, axis).at)
     }
 
-    /// One of the two planes of an axis, and the direction from there into the box.
+    /// One of the two planes of an axis.
     fn plane(&self, draw: &mut Draw, axis: usize) -> Plane<F> {
         if draw.coin() {
-            return Plane {
+            Plane {
                 at: self.min[axis],
                 inward: F::one(),
-            };
-        }
-        Plane {
-            at: self.max[axis],
-            inward: -F::one(),
+            }
+        } else {
+            Plane {
+                at: self.max[axis],
+                inward: -F::one(),
+            }
         }
     }
 
-    /// The ray from a point to another, with a direction of some length.
-    fn seen(&self, draw: &mut Draw, ray: Sight<F>) -> BoxCase<F> {
-        let Sight { origin, target } = ray;
-        let length = number::<F>(0.25 + 3.75 * draw.unit());
-        let direction = each_axis(|i| (target[i] - origin[i]) * length);
+    /// The ray along a sight, with a direction of some length.
+    fn seen(&self, draw: &mut Draw, Sight { origin, target }: Sight<F>) -> BoxCase<F> {
+        let length = F::from_f64(0.25 + 3.75 * draw.unit());
+        let direction = each_axis(|axis| (target[axis] - origin[axis]) * length);
         self.with(origin, direction)
     }
 
     fn with(&self, origin: Point<F>, direction: Point<F>) -> BoxCase<F> {
-        let bounds = [self.min, self.max];
-        BoxCase::new(origin, direction, bounds)
+        BoxCase::new(origin, direction, [self.min, self.max])
     }
 }
 
 struct Plane<F> {
+    /// Its coordinate on its axis.
     at: F,
+    /// The direction from there into the box: 1 or -1.
     inward: F,
 }
 
@@ -84,7 +85,7 @@ struct Sight<F> {
 }
 
 impl<F: Float> Sight<F> {
-    /// From a point in [-4, 4] that is at least 1/16 away from a target on every axis.
+    /// The sight of a target from a point in [-4, 4] that is more than 1/16 away on every axis.
     fn at(draw: &mut Draw, target: Point<F>) -> Sight<F> {
         loop {
             let origin = times(draw.point(), 4.0);
@@ -95,21 +96,18 @@ impl<F: Float> Sight<F> {
     }
 }
 
-fn number<F: Float>(x: f64) -> F {
-    F::from_f64(x)
-}
-
 fn times<F: Float>(point: Point<F>, factor: f64) -> Point<F> {
-    let factor = number::<F>(factor);
+    let factor = F::from_f64(factor);
     point.map(|x| x * factor)
 }
 
+/// True if two points are more than 1/16 apart on every axis.
 fn is_away<F: Float>(a: Point<F>, b: Point<F>) -> bool {
-    let least = number::<F>(0.0625);
-    let distances = each_axis(|i| (a[i] - b[i]).abs());
-    distances.iter().all(|distance| least < *distance)
+    let least = F::from_f64(0.0625);
+    (0..3).all(|axis| least < (a[axis] - b[axis]).abs())
 }
 
+/// A ray at a point well inside.
 pub fn interior<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let target = room.inside(draw, 0.125);
@@ -117,6 +115,7 @@ pub fn interior<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     room.seen(draw, ray)
 }
 
+/// A ray at a corner, as near as rounding leaves it.
 pub fn corner_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let target = room.corner(draw);
@@ -124,6 +123,7 @@ pub fn corner_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     room.seen(draw, ray)
 }
 
+/// A ray at a point of an edge, as near as rounding leaves it.
 pub fn edge_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let mut target = room.corner(draw);
@@ -133,7 +133,7 @@ pub fn edge_near<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     room.seen(draw, ray)
 }
 
-/// Beside an edge: on one axis the line goes in where on another it goes out, and it passes outside.
+/// A line that passes outside an edge: on one axis it goes in where on another it goes out.
 pub fn outside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::<F>::drawn(draw);
     let mut target = room.inside(draw, 0.125);
@@ -143,16 +143,16 @@ pub fn outside<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     for axis in [into, out] {
         let plane = room.plane(draw, axis);
         let beside = 0.0625 + draw.unit();
-        target[axis] = plane.at - plane.inward * number::<F>(beside);
+        target[axis] = plane.at - plane.inward * F::from_f64(beside);
         let slope = 0.0625 + draw.unit();
-        direction[axis] = plane.inward * number::<F>(slope);
+        direction[axis] = plane.inward * F::from_f64(slope);
     }
     direction[out] = -direction[out];
-    let origin = each_axis(|i| target[i] - direction[i]);
+    let origin = each_axis(|axis| target[axis] - direction[axis]);
     room.with(origin, direction)
 }
 
-/// Aimed at the middle from up to 2^11 away.
+/// A ray at the middle from up to 2^11 away.
 pub fn far<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::drawn(draw);
     let target = room.inside(draw, 0.375);
@@ -162,7 +162,7 @@ pub fn far<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     room.seen(draw, ray)
 }
 
-/// So large that differences of coordinates overflow.
+/// A box and an origin so large that differences of coordinates overflow.
 pub fn huge<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     let room = Room::<F>::drawn(draw);
     let target = room.inside(draw, 0.125);
@@ -170,8 +170,8 @@ pub fn huge<F: Float>(draw: &mut Draw) -> BoxCase<F> {
     ray.origin = times(ray.origin, 0.25);
     let case = room.seen(draw, ray);
     let power = F::MAX_EXPONENT - draw.integer(0, 2) as i32;
-    let large = |x: F| number(scale_by_power_of_two(x.to_f64(), power));
+    let enlarged = |x: F| F::from_f64(scale_by_power_of_two(x.to_f64(), power));
     let [origin, direction, min, max] = case.vectors();
-    let bounds = [min.map(large), max.map(large)];
-    BoxCase::new(origin.map(large), direction, bounds)
+    let bounds = [min.map(enlarged), max.map(enlarged)];
+    BoxCase::new(origin.map(enlarged), direction, bounds)
 }

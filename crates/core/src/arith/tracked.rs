@@ -12,10 +12,10 @@ use super::emulated::{Notes, Rounded};
 use super::{Exact, Float, Real, decompose};
 use std::cell::Cell;
 
-/// A float with the exceptions of its making.
+/// A float with the exceptions of all operations that made it.
 pub type Tracked<F> = Rounded<F, Exceptions>;
 
-/// Which exceptions happened. A division by zero is none of them: its infinity is exact.
+/// The exceptions that happened. A division by zero does not count: its infinity is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exceptions {
     /// An operation rounded.
@@ -49,8 +49,7 @@ impl Notes for Exceptions {
         }
     }
 
-    /// One on finite operands may raise exceptions; one on infinities and NaN, and a division by zero, is
-    /// never inexact.
+    /// The exceptions of one operation. On infinities and NaN, and as a division by zero, it is never inexact.
     fn of_operation<F: Float>(operation: RoundedOperation<F>, result: F) -> Exceptions {
         if operation.is_special() {
             return Exceptions::default();
@@ -78,15 +77,15 @@ impl Notes for Exceptions {
 }
 
 impl<F: Float> RoundedOperation<F> {
-    /// True if an operand is not finite, or the result is not: a quotient by zero, a root of a negative number.
+    /// True if an operand is not finite, or if the operation is a quotient by zero or a root of a negative number.
     fn is_special(self) -> bool {
-        let all_finite = |operands: &[F]| operands.iter().all(F::is_finite);
+        let any_special = |operands: &[F]| !operands.iter().all(F::is_finite);
         match self {
-            RoundedOperation::Sum(a, b) | RoundedOperation::Product(a, b) => !all_finite(&[a, b]),
-            RoundedOperation::Fused(a, b, c) => !all_finite(&[a, b, c]),
-            RoundedOperation::Minor(a, b, c, d) => !all_finite(&[a, b, c, d]),
-            RoundedOperation::Quotient(a, b) => !all_finite(&[a, b]) || b.is_zero(),
-            RoundedOperation::Root(a) => !a.is_finite() || a < F::zero(),
+            RoundedOperation::Sum(a, b) | RoundedOperation::Product(a, b) => any_special(&[a, b]),
+            RoundedOperation::Fused(a, b, c) => any_special(&[a, b, c]),
+            RoundedOperation::Minor(a, b, c, d) => any_special(&[a, b, c, d]),
+            RoundedOperation::Quotient(a, b) => any_special(&[a, b]) || b.is_zero(),
+            RoundedOperation::Root(a) => any_special(&[a]) || a < F::zero(),
         }
     }
 
@@ -94,21 +93,15 @@ impl<F: Float> RoundedOperation<F> {
     fn is_exact(self, result: F) -> bool {
         let exact = |x: F| Exact::from_f64(x.to_f64());
         match self {
-            RoundedOperation::Sum(a, b) => {
-                // Knuth's two-sum: the rounding error of a sum is a float. Where it overflows on the
-                // way it says inexact, which is the safe side.
-                let high = a + b;
-                let part = high - a;
-                high == result && ((a - (high - part)) + (b - part)).is_zero()
-            }
+            RoundedOperation::Sum(a, b) => is_sum(result, a, b),
             RoundedOperation::Product(a, b) => is_product(result, a, b),
             RoundedOperation::Fused(a, b, c) => {
-                let [a, b, c, result] = [a, b, c, result].map(exact);
-                (a * b + c - result).is_zero()
+                let sum = exact(a) * exact(b) + exact(c);
+                (sum - exact(result)).is_zero()
             }
             RoundedOperation::Minor(a, b, c, d) => {
-                let [a, b, c, d, result] = [a, b, c, d, result].map(exact);
-                (a * b - c * d - result).is_zero()
+                let difference = exact(a) * exact(b) - exact(c) * exact(d);
+                (difference - exact(result)).is_zero()
             }
             RoundedOperation::Quotient(a, b) => is_product(a, result, b),
             RoundedOperation::Root(a) => is_product(a, result, result),
@@ -116,11 +109,25 @@ impl<F: Float> RoundedOperation<F> {
     }
 }
 
+/// True if `sum` is `a+b` without rounding; all three are finite.
+fn is_sum<F: Float>(sum: F, a: F, b: F) -> bool {
+    // Knuth's two-sum: the rounding error of a sum is a float. Where it overflows on the way it is no zero, so the sum
+    // counts as inexact, which is the safe side.
+    let rounded = a + b;
+    let of_b = rounded - a;
+    let of_a = rounded - of_b;
+    let error = (a - of_a) + (b - of_b);
+    rounded == sum && error.is_zero()
+}
+
 /// True if `product` is `a*b` without rounding; all three are finite.
 fn is_product<F: Float>(product: F, a: F, b: F) -> bool {
-    let [(p, i), (a, j), (b, k)] = [product, a, b].map(|x| decompose(x.to_f64()));
-    // Odd digits and exponents of a product are those of its factors multiplied and added.
-    i128::from(p) == i128::from(a) * i128::from(b) && (p == 0 || i == j + k)
+    let (digits, exponent) = decompose(product.to_f64());
+    let (a_digits, a_exponent) = decompose(a.to_f64());
+    let (b_digits, b_exponent) = decompose(b.to_f64());
+    // All digits are odd, and a product of odd numbers is odd: so there is one way to write a product.
+    i128::from(digits) == i128::from(a_digits) * i128::from(b_digits)
+        && (digits == 0 || exponent == a_exponent + b_exponent)
 }
 
 #[cfg(test)]

@@ -5,49 +5,73 @@ use super::{Exact, Real, Vector};
 /// Three numbers. What glam's scalar vectors compute, this computes in the same order, so that a
 /// kernel rounds alike on both.
 #[derive(Clone, Debug)]
-pub struct Triple<R>([R; 3]);
+pub struct Triple<R> {
+    x: R,
+    y: R,
+    z: R,
+}
 
 /// Three exact numbers.
 pub type ExactVector = Triple<Exact>;
 
 impl<R> From<[R; 3]> for Triple<R> {
-    fn from(coordinates: [R; 3]) -> Self {
-        Triple(coordinates)
+    fn from([x, y, z]: [R; 3]) -> Self {
+        Triple { x, y, z }
     }
 }
 
 impl<R: Real> Vector for Triple<R> {
     type Real = R;
     fn new(x: R, y: R, z: R) -> Self {
-        Triple([x, y, z])
+        Triple { x, y, z }
     }
     fn at(&self, axis: usize) -> R {
-        self.0[axis].clone()
+        let coordinates = [&self.x, &self.y, &self.z];
+        coordinates[axis].clone()
     }
     fn minus(&self, other: &Self) -> Self {
-        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
-        Triple([x.clone() - a, y.clone() - b, z.clone() - c])
+        Triple {
+            x: self.x.clone() - &other.x,
+            y: self.y.clone() - &other.y,
+            z: self.z.clone() - &other.z,
+        }
     }
     fn plus(&self, other: &Self) -> Self {
-        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
-        Triple([x.clone() + a, y.clone() + b, z.clone() + c])
+        Triple {
+            x: self.x.clone() + &other.x,
+            y: self.y.clone() + &other.y,
+            z: self.z.clone() + &other.z,
+        }
     }
     fn times(&self, factor: &R) -> Self {
-        let [x, y, z] = &self.0;
-        Triple([x.clone() * factor, y.clone() * factor, z.clone() * factor])
+        Triple {
+            x: self.x.clone() * factor,
+            y: self.y.clone() * factor,
+            z: self.z.clone() * factor,
+        }
     }
     fn plus_scaled(self, vector: &Self, factor: &R) -> Self {
-        let ([x, y, z], [a, b, c]) = (self.0, &vector.0);
-        let product = |a: &R| a.clone() * factor;
-        Triple([x + product(a), y + product(b), z + product(c)])
+        let scaled = |coordinate: &R| coordinate.clone() * factor;
+        Triple {
+            // The product is added while it is unborrowed, so that an arithmetic may fuse it.
+            x: self.x + scaled(&vector.x),
+            y: self.y + scaled(&vector.y),
+            z: self.z + scaled(&vector.z),
+        }
     }
     fn dot(&self, other: &Self) -> R {
-        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
-        x.clone() * a + y.clone() * b + z.clone() * c
+        self.x.clone() * &other.x + self.y.clone() * &other.y + self.z.clone() * &other.z
     }
     fn cross(&self, other: &Self) -> Self {
-        let ([x, y, z], [a, b, c]) = (&self.0, &other.0);
-        let minor = |p: &R, q: &R, r: &R, s: &R| p.clone() * q - r.clone() * s;
-        Triple([minor(y, c, b, z), minor(z, a, c, x), minor(x, b, a, y)])
+        Triple {
+            x: minor(&self.y, &other.z, &other.y, &self.z),
+            y: minor(&self.z, &other.x, &other.z, &self.x),
+            z: minor(&self.x, &other.y, &other.x, &self.y),
+        }
     }
+}
+
+/// `p*q - r*s`, with both products unborrowed, so that an arithmetic may fuse one of them.
+fn minor<R: Real>(p: &R, q: &R, r: &R, s: &R) -> R {
+    p.clone() * q - r.clone() * s
 }

@@ -6,47 +6,47 @@ use crate::arith::{Float, ScalarName};
 impl<F: Float> Case<F> {
     /// The bit patterns of origin, direction, a, b, c, t_min and t_max, in hexadecimal.
     pub fn hex(&self) -> String {
-        let triples = self.vectors().map(|v| v.map(F::hex).join(","));
-        let [o, d, a, b, c] = triples;
-        let (t_min, t_max) = (self.ray.t_min.hex(), self.ray.t_max.hex());
+        let [o, d, a, b, c] = self.vectors().map(|v| v.map(F::hex).join(","));
+        let t_min = self.ray.t_min.hex();
+        let t_max = self.ray.t_max.hex();
         format!("o={o} d={d} a={a} b={b} c={c} t={t_min},{t_max}")
     }
 
     /// All seventeen numbers, in the order of [`Case::hex`].
     pub fn numbers(&self) -> [F; 17] {
-        let vectors = self.vectors();
-        std::array::from_fn(|i| match i {
-            15 => self.ray.t_min,
-            16 => self.ray.t_max,
-            _ => vectors[i / 3][i % 3],
-        })
+        let mut numbers = [F::zero(); 17];
+        numbers[..15].copy_from_slice(self.vectors().as_flattened());
+        numbers[15] = self.ray.t_min;
+        numbers[16] = self.ray.t_max;
+        numbers
     }
 
-    /// The bits of all numbers: what a digest covers.
+    /// The bits of all numbers, over which digests are made.
     pub fn bits(&self) -> [u64; 17] {
         self.numbers().map(F::to_bits)
     }
 
-    /// From the bits of all numbers.
+    /// The case whose numbers have these bits.
     pub fn from_bits(bits: &[u64; 17]) -> Case<F> {
-        let number = |i: usize| F::from_bits(bits[i]);
-        let vector = |i: usize| [number(3 * i), number(3 * i + 1), number(3 * i + 2)];
-        let triangle = [vector(2), vector(3), vector(4)];
-        Case::new(vector(0), vector(1), triangle).on(number(15), number(16))
+        let numbers = bits.map(F::from_bits);
+        let (&[origin, direction, a, b, c], &[t_min, t_max]) = numbers.as_chunks() else {
+            unreachable!("17 numbers are five vectors and two ends of an interval")
+        };
+        Case::new(origin, direction, [a, b, c]).on(t_min, t_max)
     }
 
-    /// From what [`Case::hex`] writes; none of anything else, nor of the other scalar's.
+    /// The case that [`Case::hex`] wrote as this text; none if the text is anything else, or the other scalar's.
     pub fn from_hex(text: &str) -> Option<Case<F>> {
         let words: Vec<&str> = text.split(' ').take(6).collect();
-        let lists = words
-            .iter()
-            .filter_map(|word| Some(word.split_once('=')?.1));
-        let bits: Vec<u64> = lists
-            .flat_map(|list| list.split(','))
-            .map(|number| u64::from_str_radix(number, 16))
-            .collect::<Result<_, _>>()
-            .ok()?;
+        let mut bits = Vec::new();
+        for word in &words {
+            let (_, list) = word.split_once('=')?;
+            for number in list.split(',') {
+                bits.push(u64::from_str_radix(number, 16).ok()?);
+            }
+        }
         let case = Case::from_bits(bits.as_slice().try_into().ok()?);
+        // Names, digits and their number are right if the case is written in the same way.
         (case.hex() == words.join(" ")).then_some(case)
     }
 }
@@ -69,7 +69,7 @@ impl<A, B> AnyScalar<A, B> {
         }
     }
 
-    /// For `f32` and for `f64`, true if it is of that scalar.
+    /// Two flags, for `f32` and for `f64`: true for the scalar that it is in.
     pub fn scalars(&self) -> [bool; 2] {
         self.scalar().alone()
     }
@@ -81,9 +81,10 @@ pub type AnyCase = AnyScalar<Case<f32>, Case<f64>>;
 impl<F: Float> From<Case<F>> for AnyCase {
     fn from(case: Case<F>) -> AnyCase {
         let bits = case.bits();
-        match F::NAME == f32::NAME {
-            true => AnyCase::F32(Case::from_bits(&bits)),
-            false => AnyCase::F64(Case::from_bits(&bits)),
+        if F::NAME == f32::NAME {
+            AnyCase::F32(Case::from_bits(&bits))
+        } else {
+            AnyCase::F64(Case::from_bits(&bits))
         }
     }
 }
@@ -92,7 +93,9 @@ impl<F: Float> From<Case<F>> for AnyCase {
 pub fn rust_case<F: Float>(case: &Case<F>) -> String {
     let [origin, direction, a, b, c] = case.vectors().map(|v| rust_list(&v));
     let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-    let interval = if t_min.to_bits() == F::zero().to_bits() && t_max == F::infinity() {
+    // -0 is not the default, though it is equal to it.
+    let starts_at_zero = t_min.to_bits() == F::zero().to_bits();
+    let interval = if starts_at_zero && t_max == F::infinity() {
         String::new()
     } else {
         format!(".on({}, {})", rust_number(t_min), rust_number(t_max))
@@ -111,17 +114,15 @@ pub fn rust_list<F: Float>(numbers: &[F]) -> String {
 
 /// The shortest literal that is the number; a NaN by its bits.
 fn rust_number<F: Float>(x: F) -> String {
+    let scalar = F::NAME;
     if x.is_nan() {
-        format!("{}::from_bits(0x{})", F::NAME, x.hex())
-    } else if x.is_finite() {
-        format!("{x:?}")
-    } else {
-        format!(
-            "{}{}::INFINITY",
-            if x.is_sign_negative() { "-" } else { "" },
-            F::NAME
-        )
+        return format!("{scalar}::from_bits(0x{})", x.hex());
     }
+    if x.is_finite() {
+        return format!("{x:?}");
+    }
+    let sign = if x.is_sign_negative() { "-" } else { "" };
+    format!("{sign}{scalar}::INFINITY")
 }
 
 #[cfg(test)]

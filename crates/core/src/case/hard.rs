@@ -12,21 +12,15 @@ pub fn hard_cases<F: Float>(seed: u64, count: u64) -> Vec<Case<F>> {
 }
 
 fn hard_case<F: Float>(draw: &mut Draw, index: u64) -> Case<F> {
-    match index % 4 {
-        0 => on_a_grid(draw),
-        1 | 2 => {
-            let most_exponent = if index % 8 == 1 {
-                8
-            } else {
-                F::MAX_EXPONENT as i64 / 3
-            };
-            near_an_edge(draw, most_exponent)
-        }
+    match index % 8 {
+        0 | 4 => on_a_grid(draw),
+        1 => near_an_edge(draw, 8),
+        2 | 5 | 6 => near_an_edge(draw, F::MAX_EXPONENT as i64 / 3),
         _ => of_any_exponents(draw),
     }
 }
 
-/// The weights, of any sum, of a vertex, a point of an edge, inside, and outside.
+/// The weights of two vertices, of points on two edges, of one inside and one outside. Their sums differ from 1.
 const WEIGHTS: [[i64; 3]; 6] = [
     [2, 0, 0],
     [0, 2, 0],
@@ -38,21 +32,17 @@ const WEIGHTS: [[i64; 3]; 6] = [
 
 /// A small triangle of integers, and a ray exactly at a point of its plane.
 fn on_a_grid<F: Float>(draw: &mut Draw) -> Case<F> {
-    let corners: [[i64; 3]; 3] = [(); 3].map(|()| draw.lattice_point(4));
-    let weights = draw.pick(&WEIGHTS);
+    let [a, b, c] = [(); 3].map(|()| draw.lattice_point(4));
+    let [of_a, of_b, of_c] = draw.pick(&WEIGHTS);
     let direction = draw.lattice_point(3);
-    let sum: i64 = weights.iter().sum();
-    let mut origin = [0; 3];
-    for (axis, coordinate) in origin.iter_mut().enumerate() {
-        // Times the sum of the weights, so that nothing is divided.
-        let mut target = 0;
-        for (weight, corner) in weights.iter().zip(corners) {
-            target += weight * corner[axis];
-        }
-        *coordinate = target - 2 * sum * direction[axis];
-    }
-    let scaled = corners.map(|corner| corner.map(|x| sum * x));
-    Case::new(floats(origin), floats(direction), scaled.map(floats))
+    // All points are multiplied by the sum of the weights, so that nothing is divided.
+    let sum = of_a + of_b + of_c;
+    let origin = [0, 1, 2].map(|axis| {
+        let target = of_a * a[axis] + of_b * b[axis] + of_c * c[axis];
+        target - 2 * sum * direction[axis]
+    });
+    let vertices = [a, b, c].map(|vertex| vertex.map(|x| sum * x));
+    Case::new(floats(origin), floats(direction), vertices.map(floats))
 }
 
 fn floats<F: Float>(point: [i64; 3]) -> [F; 3] {
@@ -75,10 +65,12 @@ fn near_an_edge<F: Float>(draw: &mut Draw, most_exponent: i64) -> Case<F> {
     Case::new(origin, direction, corners)
 }
 
+/// Coordinates of any sign and digits, all with one exponent.
 fn vector<F: Float>(draw: &mut Draw, exponent: i32) -> [F; 3] {
     [(); 3].map(|()| draw.with_exponent(exponent))
 }
 
+/// Numbers each of which has an exponent of its own.
 fn of_any_exponents<F: Float>(draw: &mut Draw) -> Case<F> {
     let least = F::MIN_EXPONENT as i64;
     let most = F::MAX_EXPONENT as i64;

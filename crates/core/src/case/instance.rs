@@ -3,11 +3,10 @@
 use super::{Case, Ray, Triangle, between_colons};
 use crate::arith::{Exact, Float, Real, Triple, Vector};
 
-/// Three rows of a matrix from an object to the world; the last column is the translation.
+/// Three rows of an affine matrix; the last column is the translation.
 pub type Matrix<F> = [[F; 4]; 3];
 
-/// A matrix of three rows, the last column of which is the translation, from an object to the world; and its inverse as
-/// ray tracers have it, rounded.
+/// A matrix from an object to the world, and its inverse as ray tracers have it, rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instance<F> {
     matrix: Matrix<F>,
@@ -20,10 +19,10 @@ impl<F: Float> Instance<F> {
     /// It is computed as glam's `Affine3::inverse` does: the cross products of the columns times the rounded 1/det, and
     /// the translation from that.
     pub fn new(matrix: Matrix<F>) -> Option<Instance<F>> {
-        let [x, y, z, translation] = [0, 1, 2, 3].map(|i| column(&matrix, i));
-        let rows = [cross(y, z), cross(z, x), cross(x, y)];
-        let scale = F::one() / dot(x, rows[0]);
-        let inverse = rows.map(|row| {
+        let [x, y, z, translation] = columns(&matrix);
+        let adjugate = [cross(y, z), cross(z, x), cross(x, y)];
+        let scale = F::one() / dot(x, adjugate[0]);
+        let inverse = adjugate.map(|row| {
             let [a, b, c] = row.map(|number| number * scale);
             let moved_back = -dot([a, b, c], translation);
             [a, b, c, moved_back]
@@ -63,7 +62,8 @@ impl<F: Float> Instance<F> {
     /// A normal of the object in the world, of any length, rounded: by the transposed inverse, which leaves it on its
     /// side of the triangle.
     pub fn normal_in_world(&self, normal: [F; 3]) -> [F; 3] {
-        [0, 1, 2].map(|i| dot(column(&self.inverse, i), normal))
+        let [x, y, z, _] = columns(&self.inverse);
+        [dot(x, normal), dot(y, normal), dot(z, normal)]
     }
 
     /// The case whose ray, which was in the object, is brought to the world and rounded there.
@@ -79,39 +79,37 @@ impl<F: Float> Instance<F> {
 
     /// Points of the object in the world, in an arithmetic that does not round.
     pub fn place<R: Real>(&self, points: [[F; 3]; 3], number: impl Fn(f64) -> R) -> [Triple<R>; 3] {
-        let lift = |x: F| number(x.to_f64());
         points.map(|point| {
-            let lifted = Triple::from(point.map(lift));
-            let coordinates = self.matrix.map(|[x, y, z, moved]| {
-                let row = Triple::from([x, y, z].map(lift));
-                row.dot(&lifted) + lift(moved)
+            let in_object = lifted(point, &number);
+            let in_world = self.matrix.map(|[x, y, z, moved]| {
+                let row = lifted([x, y, z], &number);
+                row.dot(&in_object) + number(moved.to_f64())
             });
-            coordinates.into()
+            in_world.into()
         })
     }
 
-    /// True if it turns an object inside out.
+    /// True if it mirrors an object, which turns its triangles' fronts to the back.
     pub fn is_mirrored(&self) -> bool {
         exact_determinant(&self.matrix).is_sign_negative()
     }
 
-    /// A ray of the world as the object has it, and the triangle, in an arithmetic that does not round; both as many
-    /// times as large as the determinant of the matrix, which is the last, so that nothing is divided.
+    /// A ray of the world as the object has it, the triangle, and the determinant of the matrix, in an arithmetic that does
+    /// not round. Ray and triangle are both multiplied by the determinant, so that nothing is divided.
     pub fn lift<R: Real>(
         &self,
         case: &Case<F>,
         number: impl Fn(f64) -> R,
     ) -> (Ray<Triple<R>>, Triangle<Triple<R>>, R) {
-        let columns = [0, 1, 2, 3].map(|i| column(&self.matrix, i));
-        let [x, y, z, translation] =
-            columns.map(|numbers| Triple::from(numbers.map(|x| number(x.to_f64()))));
-        let rows = [y.cross(&z), z.cross(&x), x.cross(&y)];
-        let determinant = x.dot(&rows[0]);
+        let [x, y, z, translation] = columns(&self.matrix).map(|column| lifted(column, &number));
+        // The adjugate, which is the inverse times the determinant.
+        let adjugate = [y.cross(&z), z.cross(&x), x.cross(&y)];
+        let determinant = x.dot(&adjugate[0]);
         let (ray, triangle) = case.widen().lift(&number);
         let from_translation = ray.origin.minus(&translation);
         let in_object = Ray {
-            origin: dots(&rows, &from_translation),
-            direction: dots(&rows, &ray.direction),
+            origin: dots(&adjugate, &from_translation),
+            direction: dots(&adjugate, &ray.direction),
             ..ray
         };
         let scaled = Triangle {
@@ -135,26 +133,31 @@ impl<F: Float> Instance<F> {
 }
 
 fn exact_determinant<F: Float>(matrix: &Matrix<F>) -> Exact {
-    let columns = [0, 1, 2].map(|i| column(matrix, i));
-    let [x, y, z] =
-        columns.map(|numbers| Triple::from(numbers.map(|x| Exact::from_f64(x.to_f64()))));
-    x.dot(&y.cross(&z))
+    let [x, y, z, _] = columns(matrix);
+    let exact = |column| lifted(column, Exact::from_f64);
+    exact(x).dot(&exact(y).cross(&exact(z)))
 }
 
-fn column<F: Float>(matrix: &Matrix<F>, i: usize) -> [F; 3] {
-    matrix.map(|row| row[i])
+/// The directions into which the object's axes are turned, and the translation.
+fn columns<F: Float>(matrix: &Matrix<F>) -> [[F; 3]; 4] {
+    [0, 1, 2, 3].map(|i| matrix.map(|row| row[i]))
+}
+
+/// A vector in another arithmetic.
+fn lifted<F: Float, R: Real>(vector: [F; 3], number: impl Fn(f64) -> R) -> Triple<R> {
+    vector.map(|x| number(x.to_f64())).into()
 }
 
 fn is_finite<F: Float>(matrix: &Matrix<F>) -> bool {
-    let mut numbers = matrix.as_flattened().iter();
-    numbers.all(|number| number.is_finite())
+    let numbers = matrix.as_flattened();
+    numbers.iter().all(F::is_finite)
 }
 
 fn apply_to_point<F: Float>(matrix: &Matrix<F>, point: [F; 3]) -> [F; 3] {
     matrix.map(|[x, y, z, moved]| dot([x, y, z], point) + moved)
 }
 
-/// Without the translation, which moves no direction.
+/// A direction is not moved by the translation.
 fn apply_to_direction<F: Float>(matrix: &Matrix<F>, direction: [F; 3]) -> [F; 3] {
     matrix.map(|[x, y, z, _]| dot([x, y, z], direction))
 }
@@ -164,14 +167,14 @@ fn dots<R: Real>(rows: &[Triple<R>; 3], vector: &Triple<R>) -> Triple<R> {
     rows.each_ref().map(|row| row.dot(vector)).into()
 }
 
-/// A matrix as case ids have it: twelve numbers, row by row.
+/// The text of a matrix in a case id: twelve numbers, row by row.
 pub(super) fn text(matrix: &Matrix<f64>) -> String {
     let numbers = matrix.as_flattened();
     let words: Vec<String> = numbers.iter().map(|x| format!("{x:e}")).collect();
     words.join(":")
 }
 
-/// A matrix of a case id.
+/// The matrix of a case id's text.
 pub(super) fn parsed(text: &str) -> Result<Matrix<f64>, String> {
     let numbers: [f64; 12] = between_colons(text)
         .ok_or_else(|| format!("'{text}' is no instance: write 12 numbers with : between them"))?;

@@ -7,7 +7,7 @@ use super::runs::{ExactRun, Measured, TrackedRun};
 use super::subject::Gated;
 use super::{Deciding, Generic, Hit, Kernel, KernelInfo, Measuring, Verdict};
 use crate::arith::{Arithmetic, Bounded, Emulated, Exact, Float, Real, Triple, bounded};
-use crate::case::{Case, Ray, Target, Triangle, Triangles};
+use crate::case::{Ray, Target};
 
 /// A case in an arithmetic that is not the machine's own.
 struct Lifted<R: Real, T: Target> {
@@ -21,7 +21,8 @@ impl<R: Real, T: Target> Lifted<R, T> {
         Lifted { ray, shape }
     }
 
-    /// Not inlined, and one for both sinks: a kernel's code is large, and compiled for every arithmetic.
+    /// Runs a kernel. One function takes both sinks and is not inlined: a kernel's code is large, and compiled for every
+    /// arithmetic.
     #[inline(never)]
     fn test<K: Kernel<T>>(
         &self,
@@ -31,20 +32,22 @@ impl<R: Real, T: Target> Lifted<R, T> {
     }
 }
 
-/// A run in an arithmetic that does not round. Both scalars share it, so that a kernel is compiled once for it.
+/// A run in an arithmetic that does not round. The scalars share that arithmetic, so a kernel is compiled once for both.
 fn run<F: Float, T: Target, K: Kernel<T>, R: Real>(
     case: &T::Case<F>,
     epsilons: &[F],
     number: fn(f64) -> R,
 ) -> ExactRun {
-    let epsilons: Vec<R> = epsilons.iter().map(|e| number(e.to_f64())).collect();
-    let mut watching = Deciding::watching(&epsilons);
-    let lifted = Lifted::<R, T>::new(case, |x: F| number(x.to_f64()));
-    let values = lifted.test::<K>(&mut Either::One(&mut watching));
-    ExactRun::of(watching.passed, values)
+    let lift = |x: F| number(x.to_f64());
+    let epsilons: Vec<R> = epsilons.iter().map(|epsilon| lift(*epsilon)).collect();
+    let mut sink = Deciding::watching(&epsilons);
+    let lifted = Lifted::<R, T>::new(case, lift);
+    let values = lifted.test::<K>(&mut Either::One(&mut sink));
+    ExactRun::of(sink.passed, values)
 }
 
-/// A run in the machine's own arithmetic that takes margins or thresholds. Not inlined, as above.
+/// A run in the machine's own arithmetic that takes margins or thresholds. It is not inlined, since a kernel's code is
+/// large.
 #[inline(never)]
 fn measure<F: Float, T: Target, K: Kernel<T>>(
     case: &T::Case<F>,
@@ -53,17 +56,23 @@ fn measure<F: Float, T: Target, K: Kernel<T>>(
     K::test(&K::prepare(T::shape(case)), T::ray(case), &mut sink)
 }
 
-/// As another machine computes.
+/// Runs as another machine computes.
 impl<T: Target, K: Kernel<T>> Generic<K, T> {
-    fn emulated<F: Float, U: Target>(&self, case: &U::Case<F>) -> Lifted<Emulated<F>, U> {
-        Lifted::new(case, |x: F| Emulated::new(x, self.arithmetic))
+    fn number<F: Float>(&self, x: F) -> Emulated<F> {
+        Emulated::new(x, self.arithmetic)
     }
 
     fn numbers<F: Float>(&self, values: &[F]) -> Vec<Emulated<F>> {
-        values
-            .iter()
-            .map(|x| Emulated::new(*x, self.arithmetic))
-            .collect()
+        values.iter().map(|x| self.number(*x)).collect()
+    }
+
+    fn vector<F: Float>(&self, vector: F::Vector) -> Triple<Emulated<F>> {
+        let coordinates: [F; 3] = vector.into();
+        coordinates.map(|x| self.number(x)).into()
+    }
+
+    fn lifted<F: Float>(&self, case: &T::Case<F>) -> Lifted<Emulated<F>, T> {
+        Lifted::new(case, |x: F| self.number(x))
     }
 
     /// [`KernelIn::run`](super::KernelIn::run).
@@ -76,8 +85,7 @@ impl<T: Target, K: Kernel<T>> Generic<K, T> {
         let epsilons = self.numbers(epsilons);
         for (case, place) in cases.iter().zip(verdicts) {
             let mut sink = Deciding::new(&epsilons);
-            let lifted = self.emulated::<F, T>(case);
-            let hit = lifted.test::<K>(&mut Either::One(&mut sink));
+            let hit = self.lifted(case).test::<K>(&mut Either::One(&mut sink));
             *place = verdict(hit, sink.refused_by);
         }
     }
@@ -89,28 +97,23 @@ impl<T: Target, K: Kernel<T>> Generic<K, T> {
         ray: &Ray<F::Vector>,
         epsilons: &[F],
     ) -> Verdict<F> {
-        // A case has room for a ray and three vertices.
-        let lifted = |vertex: &F::Vector| {
-            let triangle = Triangle::new(*vertex, *vertex, *vertex);
-            self.emulated::<F, Triangles>(&Case {
-                ray: *ray,
-                triangle,
-            })
-        };
-        let Some(Lifted { ray, .. }) = vertices.first().map(lifted) else {
+        if vertices.is_empty() {
             return Verdict::miss(None);
+        }
+        let vertices: Vec<_> = vertices.iter().map(|v| self.vector::<F>(*v)).collect();
+        let ray = Ray {
+            origin: self.vector::<F>(ray.origin),
+            direction: self.vector::<F>(ray.direction),
+            t_min: self.number(ray.t_min),
+            t_max: self.number(ray.t_max),
         };
-        let vertices: Vec<_> = vertices
-            .iter()
-            .map(|vertex| lifted(vertex).shape.a)
-            .collect();
         let epsilons = self.numbers(epsilons);
         let mut sink = Deciding::new(&epsilons);
         let hit = K::test_polygon(&vertices, &ray, &mut sink);
         verdict(hit, sink.refused_by)
     }
 
-    /// Every gate's margin, or its threshold, into `margins`, one entry a gate.
+    /// Writes every gate's margin, or its threshold, into `margins`, one entry a gate; returns the values of a hit.
     pub(super) fn measure_into<F: Float>(
         &self,
         case: &T::Case<F>,
@@ -122,8 +125,7 @@ impl<T: Target, K: Kernel<T>> Generic<K, T> {
         }
         let mut emulated = self.numbers(margins);
         let mut sink = Measuring::new(&mut emulated, thresholds);
-        let lifted = self.emulated::<F, T>(case);
-        let values = lifted.test::<K>(&mut Either::Other(&mut sink));
+        let values = self.lifted(case).test::<K>(&mut Either::Other(&mut sink));
         for (place, number) in margins.iter_mut().zip(&emulated) {
             let margin = number.value();
             *place = if thresholds {
@@ -166,8 +168,8 @@ impl<F: Float, T: Target, K: Kernel<T>> Gated<F, T> for Generic<K, T> {
     }
 
     fn run_exact(&self, case: &T::Case<F>, epsilons: &[F]) -> ExactRun {
-        let near = bounded(|| run::<F, T, K, _>(case, epsilons, Bounded::new));
-        near.unwrap_or_else(|| run::<F, T, K, _>(case, epsilons, Exact::from_f64))
+        let in_bounds = bounded(|| run::<F, T, K, _>(case, epsilons, Bounded::new));
+        in_bounds.unwrap_or_else(|| run::<F, T, K, _>(case, epsilons, Exact::from_f64))
     }
 
     fn run_tracked(&self, case: &T::Case<F>, epsilons: &[F]) -> TrackedRun<F> {
@@ -182,7 +184,7 @@ impl<F: Float, T: Target, K: Kernel<T>> Gated<F, T> for Generic<K, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::hard_cases;
+    use crate::case::{Triangles, hard_cases};
 
     /// Runs of one kernel: the bounds decide as exact numbers do, or leave it. Of numbers with any exponents they
     /// leave most.

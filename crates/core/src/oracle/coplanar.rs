@@ -6,48 +6,56 @@ use crate::truth::{Contact, ContactKind, Feature};
 use std::cmp::Ordering;
 
 /// The contact on [0, inf) of a line in the plane of a triangle with area. The line meets the boundary
-/// nowhere, at one vertex, or at two points of different t, so the signs of their t tell all. Tables for
-/// branches: the sides of the vertices are as random as the cases.
+/// nowhere, at one vertex, or at two points of different t, so the signs of their t decide the contact. Tables
+/// replace branches: the sides of the vertices are as random as the cases.
 pub(super) fn coplanar_contact<W: Width>(
-    d: [i64; 3],
+    direction: [i64; 3],
     vertices: [[i64; 3]; 3],
-    n: [W::Minor; 3],
+    normal: [W::Minor; 3],
 ) -> Contact {
-    let k = (0..3)
-        .find(|&k| !n[k].is_zero())
-        .expect("a triangle with area");
-    let m = (0..3)
-        .find(|&m| d[m] != 0)
-        .expect("a direction that is not zero");
-    // The side of the line that each vertex is on: component k of d × vertex.
+    let across = normal.iter().position(|x| !x.is_zero());
+    let k = across.expect("a triangle with area");
+    let along = direction.iter().position(|x| *x != 0);
+    let m = along.expect("a direction that is not zero");
+    // The side of the line that a vertex is on: component k of direction × vertex, a vector along the normal.
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let side = vertices.map(|v| W::product(d[i], v[j]) - W::product(d[j], v[i]));
-    let digit = |sign: Ordering| (sign as i8 + 1) as usize;
-    let [first, second, third] = side.map(|side| digit(side.sign()));
-    let met = &MET[9 * first + 3 * second + third];
-    // t of the point between v and w, from the sides x and y: (y·v - x·w) / (y - x), over d.
-    let t_sign = |(v, w): (usize, usize)| {
-        let (x, y) = (side[v], side[w]);
+    let sides = vertices.map(|v| W::product(direction[i], v[j]) - W::product(direction[j], v[i]));
+    let [a, b, c] = sides.map(|side| digit(side.sign()));
+    let met = &MET[9 * a + 3 * b + c];
+    // Between the vertices v and w, on the sides x and y, the line is at (y·v - x·w) / (y - x). Over the direction
+    // that is t.
+    let t_sign = |Between(v, w)| {
+        let (x, y) = (sides[v], sides[w]);
         let numerator = W::wide_product(vertices[v][m], y) - W::wide_product(vertices[w][m], x);
-        let sign = [numerator.sign(), (y - x).sign(), d[m].cmp(&0)];
-        sign.iter().map(|sign| *sign as i8).product::<i8>().cmp(&0)
+        let numerator_sign = numerator.sign() as i8;
+        let denominator_sign = (y - x).sign() as i8;
+        let direction_sign = direction[m].cmp(&0) as i8;
+        (numerator_sign * denominator_sign * direction_sign).cmp(&0)
     };
-    let [first, second] = met.between.map(t_sign);
+    let [first, second] = met.points.map(t_sign);
     met.contacts[3 * digit(first) + digit(second)]
 }
 
-/// Where a line in the plane meets the boundary of a triangle, and what that makes of the contact.
+/// A sign as a digit of a table's index: 0, 1 or 2 below, at and above zero.
+fn digit(sign: Ordering) -> usize {
+    (sign as i8 + 1) as usize
+}
+
+/// A point of the boundary: it lies between two vertices that are not on one side of the line, at the first vertex if
+/// that is on the line.
+#[derive(Clone, Copy)]
+struct Between(usize, usize);
+
+/// Where a line in the plane meets the boundary of a triangle, and the contacts that follow from that.
 #[derive(Clone, Copy)]
 struct MetBoundary {
-    /// The points, up to two: each lies between two vertices that are not on one side, at the first if
-    /// that is on the line.
-    between: [(usize, usize); 2],
-    /// By 3 and 1 times 0, 1 or 2 for a point's t below, at and above zero.
+    /// The points that are met, up to two.
+    points: [Between; 2],
+    /// By the signs of the points' t: 3 times the digit of the first, and that of the second.
     contacts: [Contact; 9],
 }
 
-/// By the sides of the vertices: 9, 3 and 1 times 0, 1 or 2 for the negative side, the line and the
-/// positive side.
+/// By the sides of the vertices: 9 times the digit of a, 3 times that of b, and that of c.
 const MET: [MetBoundary; 27] = {
     const VERTICES: [Feature; 3] = [Feature::VertexA, Feature::VertexB, Feature::VertexC];
     const EDGES: [Feature; 3] = [Feature::EdgeAb, Feature::EdgeBc, Feature::EdgeCa];
@@ -57,24 +65,28 @@ const MET: [MetBoundary; 27] = {
         meets_line: false,
     };
     let mut all = [MetBoundary {
-        between: [(0, 0); 2],
+        points: [Between(0, 0); 2],
         contacts: [none; 9],
     }; 27];
     let mut sides = 0;
     while sides < 27 {
         let side = [sides / 9, sides / 3 % 3, sides % 3];
         let met = &mut all[sides];
-        let (mut count, mut features) = (0, [Feature::Outside; 2]);
+        let mut count = 0;
+        let mut features = [Feature::Outside; 2];
         let mut v = 0;
         while v < 3 {
-            let (w, u) = ((v + 1) % 3, (v + 2) % 3);
+            let next = (v + 1) % 3;
+            let last = (v + 2) % 3;
+            let is_on_line = side[v] == 1;
             // With area, no three vertices are on the line: that entry is never read.
-            if side[v] == 1 && count < 2 {
-                met.between[count] = (v, if side[w] == 1 { u } else { w });
+            if is_on_line && count < 2 {
+                let off_line = if side[next] == 1 { last } else { next };
+                met.points[count] = Between(v, off_line);
                 features[count] = VERTICES[v];
                 count += 1;
-            } else if side[v] != 1 && side[w] == 2 - side[v] {
-                met.between[count] = (v, w);
+            } else if !is_on_line && side[next] == 2 - side[v] {
+                met.points[count] = Between(v, next);
                 features[count] = EDGES[v];
                 count += 1;
             }
@@ -100,8 +112,8 @@ const MET: [MetBoundary; 27] = {
     all
 };
 
-/// The points that the ray has in common with the triangle (0: nothing, 1: the first point met, 2: the second, 3: a
-/// segment), by the number of points and by the signs of their t as [`MetBoundary::contacts`] are.
+/// The part of the triangle that the ray meets (0: nothing, 1: the first point of the boundary, 2: the second, 3: a
+/// segment), by the number of points on the line and by the signs of their t, as in [`MetBoundary::contacts`].
 const COMMON: [[usize; 9]; 3] = [
     [0; 9],
     [0, 0, 0, 1, 1, 1, 1, 1, 1],

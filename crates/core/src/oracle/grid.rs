@@ -1,5 +1,5 @@
-//! The layers of machine integers. Where all positions are multiples of one power of two below 2^[`Width::BITS`]
-//! times it, and so are the direction's coordinates of another, every predicate is computed exactly, and zero
+//! The layers of machine integers. Where all positions are integers below 2^[`Width::BITS`] times one power of two,
+//! and the direction's coordinates are such integers times another, every predicate is computed exactly, and zero
 //! is zero. `Narrow` is for small lattices; `Wide` holds full mantissas of `f64` whose exponents lie near each
 //! other.
 
@@ -15,15 +15,15 @@ use crate::truth::Truth;
 /// direction of zero are on no grid.
 #[inline(always)]
 pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
-    let ordered = case.ray.t_min <= case.ray.t_max;
-    if !ordered {
+    let is_ordered = case.ray.t_min <= case.ray.t_max;
+    if !is_ordered {
         return None;
     }
     let [o, d, a, b, c] = case.vectors();
-    let mut flat_positions = [0.0; 12];
-    flat_positions.copy_from_slice([o, a, b, c].as_flattened());
-    let (positions, p) = on_grid::<W, 12>(flat_positions)?;
-    let (d, q) = on_grid::<W, 3>(d)?;
+    let mut coordinates = [0.0; 12];
+    coordinates.copy_from_slice([o, a, b, c].as_flattened());
+    let (positions, p) = on_grid::<W, 12>(coordinates)?;
+    let (direction, q) = on_grid::<W, 3>(d)?;
     let origin = point(&positions, 0);
     let a = minus(point(&positions, 1), origin);
     let b = minus(point(&positions, 2), origin);
@@ -31,21 +31,28 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
     let bc = cross::<W>(b, c);
     let ca = cross::<W>(c, a);
     let ab = cross::<W>(a, b);
-    // (b-a)×(c-a), which is the sum of all three; that of two is (B-A)×C, no larger.
-    let normal = [0, 1, 2].map(|i| bc[i] + ca[i] + ab[i]);
-    let capital_d = wide_dot::<W>(d, normal);
+    // (b-a)×(c-a) is the sum of all three. The sum of the first two, (B-A)×C, is no larger, so nothing overflows.
+    let normal = [0, 1, 2].map(|axis| bc[axis] + ca[axis] + ab[axis]);
+    let capital_d = wide_dot::<W>(direction, normal);
     let capital_t = wide_dot::<W>(a, bc);
     let interval = RayInterval::new(case, p - q);
     if capital_d.is_zero() {
-        return Some(flat::<W>(&interval, d, [a, b, c], normal, capital_t));
+        let is_off_plane = !capital_t.is_zero();
+        return Some(flat::<W>(
+            &interval,
+            direction,
+            [a, b, c],
+            normal,
+            is_off_plane,
+        ));
     }
-    // The negated weights, whose sum is D.
-    let u = wide_dot::<W>(d, bc);
-    let v = wide_dot::<W>(d, ca);
-    let w = capital_d - u - v;
+    // -U, -V and -W. Their sum is D.
+    let minus_u = wide_dot::<W>(direction, bc);
+    let minus_v = wide_dot::<W>(direction, ca);
+    let minus_w = capital_d - minus_u - minus_v;
     let signs = DecidingSigns {
         d: capital_d.sign(),
-        weights: [u, v, w].map(|weight| weight.sign().reverse()),
+        weights: [minus_u, minus_v, minus_w].map(|negated| negated.sign().reverse()),
         t: capital_t.sign(),
         from_min: interval.compare_start(&capital_t, &capital_d),
         from_max: interval.compare_end(&capital_t, &capital_d),
@@ -53,26 +60,29 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
     Some(signs.truth())
 }
 
-/// Lines parallel to the plane, and triangles without area.
+/// The truth of a line parallel to the plane, or of a triangle without area.
 #[inline(never)]
 fn flat<W: Width>(
     interval: &RayInterval,
-    d: [i64; 3],
+    direction: [i64; 3],
     vertices: [[i64; 3]; 3],
-    n: [W::Minor; 3],
-    capital_t: W::Determinant,
+    normal: [W::Minor; 3],
+    is_off_plane: bool,
 ) -> Truth {
-    let degenerate = n.iter().all(ExactInteger::is_zero);
-    if !degenerate && !capital_t.is_zero() {
+    let degenerate = normal.iter().all(ExactInteger::is_zero);
+    if !degenerate && is_off_plane {
         return Truth::Parallel;
     }
     if !degenerate && interval.is_default() {
-        return Truth::Coplanar(coplanar_contact::<W>(d, vertices, n));
+        return Truth::Coplanar(coplanar_contact::<W>(direction, vertices, normal));
     }
-    let direction = d.map(W::Contact::from);
-    let normal = n.map(W::Contact::from);
-    let [a, b, c] = vertices.map(|vertex| vertex.map(W::Contact::from));
-    let contact = contact::decide(interval, &direction, [&a, &b, &c], &normal);
+    let vertices = vertices.map(|vertex| vertex.map(W::Contact::from));
+    let contact = contact::decide(
+        interval,
+        &direction.map(W::Contact::from),
+        vertices.each_ref(),
+        &normal.map(W::Contact::from),
+    );
     if degenerate {
         Truth::Degenerate(contact)
     } else {
@@ -83,25 +93,17 @@ fn flat<W: Width>(
 /// Numbers, not all zero, as integers below 2^[`Width::BITS`] times a power of two, and its exponent.
 #[inline(always)]
 fn on_grid<W: Width, const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)> {
-    // Four maxima side by side, so that none waits for the one before.
-    let mut maxima = [0.0; 4];
-    for (i, x) in values.into_iter().enumerate() {
-        maxima[i % 4] = larger(maxima[i % 4], x.abs());
-    }
-    let first = larger(maxima[0], maxima[1]);
-    let second = larger(maxima[2], maxima[3]);
-    let largest = larger(first, second);
-    let exponent = (largest.to_bits() >> 52) as i32 - 1023;
+    let exponent = (largest(values).to_bits() >> 52) as i32 - 1023;
     let shift = W::BITS - 1 - exponent;
-    // The scale must be a normal number; zeros and subnormal numbers alone are for the layers behind.
+    // The scale must be a normal number. Zeros and subnormal numbers alone are left to the next layers.
     if !(-1000..=1000).contains(&shift) {
         return None;
     }
     let scale = power_of_two(shift);
     let unscale = power_of_two(-shift);
     let mut integers = [0; N];
-    // The bits of all differences between a number and its integer scaled back, which is zero for a
-    // multiple alone: one that underflowed to zero is none, and a NaN or an infinity gives a NaN.
+    // A number is on the grid if its integer, scaled back, differs from it by zero. A number that underflowed to zero
+    // differs by itself, and a NaN or an infinity by a NaN. The bits of all differences are joined: one branch asks.
     for start in (0..N).step_by(W::AT_ONCE) {
         let mut differences = 0;
         for i in start..N.min(start + W::AT_ONCE) {
@@ -116,6 +118,19 @@ fn on_grid<W: Width, const N: usize>(values: [f64; N]) -> Option<([i64; N], i64)
     Some((integers, -i64::from(shift)))
 }
 
+/// The largest absolute value; a NaN counts as nothing.
+#[inline(always)]
+fn largest<const N: usize>(values: [f64; N]) -> f64 {
+    // Four maxima side by side, so that none waits for the one before.
+    let mut maxima = [0.0; 4];
+    for (i, x) in values.into_iter().enumerate() {
+        maxima[i % 4] = larger(maxima[i % 4], x.abs());
+    }
+    let first = larger(maxima[0], maxima[1]);
+    let second = larger(maxima[2], maxima[3]);
+    larger(first, second)
+}
+
 #[inline(always)]
 fn larger(m: f64, x: f64) -> f64 {
     if x > m { x } else { m }
@@ -127,7 +142,7 @@ fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-/// The k-th of the points whose coordinates stand one after the other.
+/// Point `k`; the coordinates of all points stand one after the other.
 #[inline(always)]
 fn point(coordinates: &[i64; 12], k: usize) -> [i64; 3] {
     let first = 3 * k;

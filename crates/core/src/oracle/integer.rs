@@ -8,9 +8,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 /// An exact integer of some width.
 pub trait ExactInteger {
-    /// In any size.
+    /// The same number as an integer of any size.
     fn big(&self) -> BigInt;
-    /// Less, equal or greater than zero.
+    /// The order of the number and zero.
     fn sign(&self) -> Ordering;
 
     /// True if it is zero.
@@ -20,7 +20,7 @@ pub trait ExactInteger {
     }
 }
 
-/// The default of all of them is zero.
+// The default of every integer is zero.
 impl<I: Clone + Default + Ord + Into<BigInt>> ExactInteger for I {
     fn big(&self) -> BigInt {
         self.clone().into()
@@ -31,7 +31,7 @@ impl<I: Clone + Default + Ord + Into<BigInt>> ExactInteger for I {
     }
 }
 
-/// A [`ExactInteger`] that computes: `i128` or `BigInt`.
+/// An [`ExactInteger`] that computes: `i128` or `BigInt`.
 pub trait Integer:
     ExactInteger
     + Clone
@@ -46,16 +46,19 @@ pub trait Integer:
 
     /// `a*b - c*d`.
     fn minor(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
-        a.clone() * b - &(c.clone() * d)
+        let subtracted = c.clone() * d;
+        a.clone() * b - &subtracted
     }
 }
 
 impl Integer for i128 {
     fn compare_products(a: &i128, b: &i128, c: &i128, d: &i128) -> Ordering {
-        match (a.checked_mul(*b), c.checked_mul(*d)) {
-            (Some(left), Some(right)) => left.cmp(&right),
-            _ => BigInt::compare_products(&a.big(), &b.big(), &c.big(), &d.big()),
+        let left = a.checked_mul(*b);
+        let right = c.checked_mul(*d);
+        if let (Some(left), Some(right)) = (left, right) {
+            return left.cmp(&right);
         }
+        BigInt::compare_products(&a.big(), &b.big(), &c.big(), &d.big())
     }
 }
 
@@ -76,12 +79,12 @@ pub struct RayInterval {
 }
 
 impl RayInterval {
-    /// With t = numerator / denominator * 2^exponent.
+    /// The interval of a case, with t = numerator / denominator * 2^exponent.
     pub fn new(case: &Case<f64>, exponent: i64) -> RayInterval {
         RayInterval::between(case.ray.t_min, case.ray.t_max, exponent)
     }
 
-    /// From t_min to t_max, with t = numerator / denominator * 2^exponent.
+    /// The interval from t_min to t_max, with t = numerator / denominator * 2^exponent.
     pub fn between(t_min: f64, t_max: f64, exponent: i64) -> RayInterval {
         RayInterval {
             t_min,
@@ -110,12 +113,16 @@ impl RayInterval {
         self.compare(numerator, denominator, self.t_max)
     }
 
+    /// The sign of t - end.
     #[inline]
     fn compare<I: ExactInteger>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
-        let negative = denominator.sign() == Ordering::Less;
-        let relative = |sign: Ordering| if negative { sign.reverse() } else { sign };
+        let is_negative = denominator.sign() == Ordering::Less;
+        // Multiplying by a negative denominator turned the order.
+        let divided = |order: Ordering| {
+            if is_negative { order.reverse() } else { order }
+        };
         if end == 0.0 {
-            return relative(numerator.sign());
+            return divided(numerator.sign());
         }
         if end.is_infinite() {
             return if end > 0.0 {
@@ -125,14 +132,15 @@ impl RayInterval {
             };
         }
         let (digits, exponent) = decompose(end);
-        let (mut left, mut right) = (numerator.big(), denominator.big() * digits);
+        let mut left = numerator.big();
+        let mut right = denominator.big() * digits;
         let shift = self.exponent - exponent;
         if shift >= 0 {
             left <<= shift
         } else {
             right <<= -shift
         }
-        relative(left.cmp(&right))
+        divided(left.cmp(&right))
     }
 }
 
@@ -141,11 +149,15 @@ pub fn align<const N: usize>(points: [[f64; 3]; N]) -> ([IntegerVector<BigInt>; 
     let parts = points.map(|point| point.map(decompose));
     let nonzero = parts.iter().flatten().filter(|(digits, _)| *digits != 0);
     let grid = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
-    let integer = |(digits, exponent): (i64, i64)| match digits {
-        0 => BigInt::ZERO,
-        _ => BigInt::from(digits) << (exponent - grid),
+    let on_grid = |(digits, exponent): (i64, i64)| {
+        // Its exponent, 0, may be below the grid's.
+        if digits == 0 {
+            return BigInt::ZERO;
+        }
+        BigInt::from(digits) << (exponent - grid)
     };
-    (parts.map(|point| point.map(integer)), grid)
+    let integers = parts.map(|point| point.map(on_grid));
+    (integers, grid)
 }
 
 pub fn minus<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> IntegerVector<I> {
@@ -153,14 +165,18 @@ pub fn minus<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> IntegerV
 }
 
 pub fn dot<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> I {
-    a[0].clone() * &b[0] + &(a[1].clone() * &b[1]) + &(a[2].clone() * &b[2])
+    let x = a[0].clone() * &b[0];
+    let y = a[1].clone() * &b[1];
+    let z = a[2].clone() * &b[2];
+    x + &y + &z
 }
 
 pub fn cross<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> IntegerVector<I> {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        I::minor(&a[j], &b[k], &a[k], &b[j])
-    })
+    [
+        I::minor(&a[1], &b[2], &a[2], &b[1]),
+        I::minor(&a[2], &b[0], &a[0], &b[2]),
+        I::minor(&a[0], &b[1], &a[1], &b[0]),
+    ]
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ const GIVEN: u8 = 255;
 pub struct Input<F: Float> {
     /// The kernel, a built-in one.
     pub entry: &'static Entry,
-    /// One a gate, each such that the command line takes it.
+    /// One epsilon a gate, each of which the command line takes.
     pub epsilons: Vec<F>,
     /// The ray and the triangle.
     pub case: Case<F>,
@@ -32,7 +32,7 @@ pub struct Input<F: Float> {
 /// A question in the scalar that its bytes name.
 pub type AnyInput = AnyScalar<Input<f32>, Input<f64>>;
 
-/// Any bytes are an input.
+/// The input that some bytes are read as. Any bytes are one.
 pub fn from_bytes(data: &[u8]) -> AnyInput {
     let mut bytes = Bytes(data);
     let flags = bytes.byte();
@@ -51,7 +51,7 @@ pub fn to_bytes(input: &AnyInput) -> Vec<u8> {
     }
 }
 
-/// An input one move away; the same draw gives the same one.
+/// An input one move away; equal draws give equal inputs.
 pub fn mutated(input: &AnyInput, draw: &mut Draw) -> AnyInput {
     match input {
         AnyInput::F32(input) => AnyInput::F32(input.mutated(draw)),
@@ -62,12 +62,10 @@ pub fn mutated(input: &AnyInput, draw: &mut Draw) -> AnyInput {
 impl<F: Scalar> Input<F> {
     /// A kernel with the epsilons of its source, on a case.
     pub fn of_source(entry: &'static Entry, case: Case<F>) -> Input<F> {
-        let epsilons = (0..entry.info.gates.len())
-            .map(|gate| source(entry, gate))
-            .collect();
+        let gates = 0..entry.info.gates.len();
         Input {
             entry,
-            epsilons,
+            epsilons: gates.map(|gate| source(entry, gate)).collect(),
             case,
         }
     }
@@ -80,21 +78,25 @@ impl<F: Scalar> Input<F> {
         } else {
             read_case(bytes)
         };
-        let mut input = Input::of_source(entry, case);
-        let margins = of_kernel::<F>(entry).1.measure(&case).margins;
-        for (gate, choice) in choices.into_iter().enumerate().take(margins.len()) {
-            input.epsilons[gate] = match choice {
-                GIVEN => allowed(entry, gate, bytes.number()),
-                _ => chosen(entry, gate, margins[gate], choice),
-            };
+        let mut epsilons = Vec::new();
+        let margins = margins(entry, &case);
+        for (gate, (margin, choice)) in margins.into_iter().zip(choices).enumerate() {
+            epsilons.push(if choice == GIVEN {
+                allowed(entry, gate, bytes.number())
+            } else {
+                chosen(entry, gate, margin, choice)
+            });
         }
-        input
+        Input {
+            entry,
+            epsilons,
+            case,
+        }
     }
 
     fn write(&self, flags: u8) -> Vec<u8> {
-        let kernel = KERNELS
-            .iter()
-            .position(|entry| entry.info.name == self.entry.info.name);
+        let is_kernel = |entry: &Entry| entry.info.name == self.entry.info.name;
+        let kernel = KERNELS.iter().position(is_kernel);
         let mut bytes = vec![flags, kernel.expect("a built-in kernel") as u8];
         bytes.extend([GIVEN; MAX_GATES]);
         for number in self.case.numbers().iter().chain(&self.epsilons) {
@@ -103,13 +105,13 @@ impl<F: Scalar> Input<F> {
         bytes
     }
 
-    /// Mostly another case; else another kernel, or an epsilon at a margin of this case.
+    /// An input with another case mostly; else with another kernel, or with an epsilon at a margin of this case.
     fn mutated(&self, draw: &mut Draw) -> Input<F> {
         let mut input = self.clone();
         match draw.below(8) {
-            0 => return Input::of_source(&KERNELS[draw.below(KERNELS.len())], self.case),
+            0 => input = Input::of_source(&KERNELS[draw.below(KERNELS.len())], self.case),
             1 | 2 => {
-                let margins = of_kernel::<F>(self.entry).1.measure(&self.case).margins;
+                let margins = margins(self.entry, &self.case);
                 let gate = draw.below(margins.len());
                 let choice = draw.integer(0, i64::from(GIVEN) - 1) as u8;
                 input.epsilons[gate] = chosen(self.entry, gate, margins[gate], choice);
@@ -131,13 +133,17 @@ impl<F: Scalar> Input<F> {
     }
 }
 
-/// A built-in kernel and its gates: all of those have both scalars, and show their gates.
+/// A built-in kernel, and the same with its gates. Every built-in kernel has both scalars, and shows its gates.
 pub fn of_kernel<F: Scalar>(entry: &Entry) -> (&'static dyn KernelIn<F>, &'static dyn Gated<F>) {
     let subject = F::subject(entry).expect("a built-in kernel has both scalars");
-    (
-        subject,
-        subject.gated().expect("a built-in kernel shows its gates"),
-    )
+    let gated = subject.gated().expect("a built-in kernel shows its gates");
+    (subject, gated)
+}
+
+/// The margins of a built-in kernel's gates.
+fn margins<F: Scalar>(entry: &Entry, case: &Case<F>) -> Vec<F> {
+    let (_, gated) = of_kernel::<F>(entry);
+    gated.measure(case).margins
 }
 
 fn read_case<F: Float>(bytes: &mut Bytes) -> Case<F> {
@@ -145,24 +151,31 @@ fn read_case<F: Float>(bytes: &mut Bytes) -> Case<F> {
     Case::new(origin, direction, [a, b, c]).on(bytes.number(), bytes.number())
 }
 
+/// The epsilon of a gate in its source.
 fn source<F: Float>(entry: &Entry, gate: usize) -> F {
-    F::parse(entry.info.epsilon_sets[0].values[gate]).expect("a number in the registry")
+    let values = entry.info.epsilon_sets[0].values;
+    F::parse(values[gate]).expect("a number in the registry")
 }
 
-/// The source's, a usual one, or one about the case's margin, where verdicts change.
+/// Epsilons that programs use.
+const USUAL: [f64; 6] = [1e-3, 1e-5, 1e-6, 1e-8, 1e-12, 1e-20];
+
+/// The epsilon that a byte below [`GIVEN`] stands for: the source's, a usual one, or one near the case's margin, where
+/// verdicts change.
 fn chosen<F: Float>(entry: &Entry, gate: usize, margin: F, choice: u8) -> F {
-    let epsilon = match choice % 8 {
+    let (kind, detail) = (choice % 8, choice / 8);
+    let epsilon = match kind {
         0 | 1 => return source(entry, gate),
         2 => F::zero(),
         3 => F::EPSILON,
-        4 => F::from_f64([1e-3, 1e-5, 1e-6, 1e-8, 1e-12, 1e-20][usize::from(choice / 8) % 6]),
-        5 => F::zero().offset_ulps(i64::from(choice / 8)),
-        _ => margin.offset_ulps(i64::from(choice / 8 % 5) - 2),
+        4 => F::from_f64(USUAL[usize::from(detail) % USUAL.len()]),
+        5 => F::zero().offset_ulps(detail.into()),
+        _ => margin.offset_ulps(i64::from(detail % 5) - 2),
     };
     allowed(entry, gate, epsilon)
 }
 
-/// The same if the gate takes it, else the nearest that it takes.
+/// The epsilon if the gate takes it, else the nearest that it takes.
 fn allowed<F: Float>(entry: &Entry, gate: usize, epsilon: F) -> F {
     match entry.info.gates[gate].epsilon {
         Tunable::Fixed => source(entry, gate),

@@ -19,15 +19,10 @@ pub struct Sum<'a> {
 }
 
 impl<'a> Sum<'a> {
-    /// Its lost rays in a scalar, or in both.
-    fn lost(&self, scalar: Option<ScalarName>) -> Rate {
-        let is_in = |row: &&&BoxesRow| scalar.is_none_or(|scalar| row.scalar == scalar);
-        Rate::sum(self.rows.iter().filter(is_in).map(|row| &row.lost))
-    }
-
-    /// Cases without a verdict.
-    fn failed(&self) -> u64 {
-        self.rows.iter().map(|row| row.failed).sum()
+    /// Its lost rays in a scalar.
+    fn lost_in(&self, scalar: ScalarName) -> Rate {
+        let rows = self.rows.iter().filter(|row| row.scalar == scalar);
+        Rate::sum(rows.map(|row| &row.lost))
     }
 
     /// True if it lost a ray, or gave no verdict.
@@ -37,7 +32,8 @@ impl<'a> Sum<'a> {
 
     /// The share of rays that it loses, by which the table is ordered.
     pub fn order(&self) -> f64 {
-        self.lost(None).rate.unwrap_or(0.0)
+        let lost = Rate::sum(self.rows.iter().map(|row| &row.lost));
+        lost.rate.unwrap_or(0.0)
     }
 
     /// The sources on which it loses most, with their shares in both scalars.
@@ -45,24 +41,25 @@ impl<'a> Sum<'a> {
         let rows = self.rows.iter().copied();
         let mut shares = Vec::new();
         for (first, others) in alike(rows, |one, other| one.source == other.source) {
-            let all = others.iter().chain([&first]).map(|row| &row.lost);
-            let lost = Rate::sum(all);
+            let rows = others.iter().chain([&first]);
+            let lost = Rate::sum(rows.map(|row| &row.lost));
             if 0 < lost.count {
                 shares.push((&first.source, lost.rate.unwrap_or(0.0)));
             }
         }
         shares.sort_by(|(_, a), (_, b)| b.total_cmp(a));
-        let named: Vec<String> = shares
-            .into_iter()
-            .map(|(source, share)| format!("{source} {}", percent(share)))
-            .collect();
+        let mut named = Vec::new();
+        for (source, share) in shares {
+            named.push(format!("{source} {}", percent(share)));
+        }
         listed(&named, NAMED)
     }
 
+    /// Its row of the table: a share of lost rays a scalar, then the sources that lose most if they are told.
     pub fn cells(&self, scalars: &[ScalarName], tells_sources: bool) -> Vec<Cell> {
         let mut cells = Vec::new();
         for scalar in scalars {
-            let lost = self.lost(Some(*scalar));
+            let lost = self.lost_in(*scalar);
             cells.push(Cell::rate(&lost, share(&lost)).broken_if(0 < lost.count));
         }
         if tells_sources {
@@ -74,21 +71,21 @@ impl<'a> Sum<'a> {
     /// The false hit that passes its box by most, if that is more than rounding explains.
     pub fn far(&self) -> Option<(&'a BoxesRow, &'a Farthest)> {
         let rows = self.rows.iter().copied();
-        let all = rows.filter_map(|row| Some((row, row.farthest.as_ref()?)));
-        let far = all.filter(|(_, farthest)| ROUNDED < farthest.share);
+        let hits = rows.filter_map(|row| Some((row, row.farthest.as_ref()?)));
+        let far = hits.filter(|(_, farthest)| ROUNDED < farthest.share);
         far.max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share))
     }
 
     /// The share of rays at a wall that it loses in both neighbours.
     pub fn lost_in_both(&self) -> Option<String> {
-        let both = Rate::sum(self.rows.iter().filter_map(|row| row.lost_in_both.as_ref()));
-        let (label, share) = (&self.label, share(&both));
-        (0 < both.count).then(|| format!("{label} {share}"))
+        let at_walls = self.rows.iter();
+        let lost = Rate::sum(at_walls.filter_map(|row| row.lost_in_both.as_ref()));
+        (0 < lost.count).then(|| format!("{} {}", self.label, share(&lost)))
     }
 
     /// One sentence on its cases without a verdict.
     pub fn failures(&self) -> Option<String> {
-        let failed = self.failed();
+        let failed: u64 = self.rows.iter().map(|row| row.failed).sum();
         let count = number_of(failed, "case", "cases");
         (0 < failed).then(|| format!("{} gives no verdict on {count}", self.label))
     }
@@ -96,9 +93,11 @@ impl<'a> Sum<'a> {
 
 /// `0`, or a share; a dash where there was no ray that it had to hit.
 fn share(rate: &Rate) -> String {
-    match (rate.of, rate.count) {
-        (0, _) => "–".to_owned(),
-        (_, 0) => "0".to_owned(),
-        _ => percent(rate.rate.unwrap_or(0.0)),
+    if rate.of == 0 {
+        return "–".to_owned();
     }
+    if rate.count == 0 {
+        return "0".to_owned();
+    }
+    percent(rate.rate.unwrap_or(0.0))
 }
