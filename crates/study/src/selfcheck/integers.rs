@@ -167,16 +167,16 @@ where
         let [a, b, c] = &self.vertices;
         let n = cross(&minus(b, a), &minus(c, a));
         let Some(axis) = n.iter().position(|x| !x.is_zero()) else {
-            let range = self.range_of_segment();
-            let (contact, end) = self.cut(range, |t| self.feature_on_segment(t));
+            let (contact, end) = self.cut(self.range_of_segment(), |t| self.feature_on_segment(t));
             return (Truth::Degenerate(contact), end);
         };
         if !dot(&n, &minus(&self.o, a)).is_zero() {
             return (Truth::Parallel, None);
         }
         let edges = self.edges(axis, n[axis].is_negative());
-        let range = Self::range_inside(&edges);
-        let (contact, end) = self.cut(range, |t| Self::feature_in_plane(&edges, t));
+        let (contact, end) = self.cut(Self::range_inside(&edges), |t| {
+            Self::feature_in_plane(&edges, t)
+        });
         (Truth::Coplanar(contact), end)
     }
 
