@@ -103,7 +103,8 @@ pub(super) fn triangle_with_edge_point(
     ([a, a + step * parts, a + side], point)
 }
 
-/// Twice such a triangle, and twice the point of its edge: the middle of that and the third vertex is a lattice point too.
+/// A doubled triangle with area, and a doubled lattice point of its first edge: the middle of that point and the third
+/// vertex is a lattice point too.
 pub(super) fn doubled_triangle(draw: &mut Draw, reach: i64) -> ([LatticePoint; 3], LatticePoint) {
     let (triangle, edge_point) = triangle_with_edge_point(draw, reach);
     (triangle.map(|vertex| vertex * 2), edge_point * 2)

@@ -39,7 +39,7 @@ struct Outline {
 }
 
 impl Outline {
-    /// About 2^-k thick, k up to `finest`.
+    /// An outline about 2^-k thick, with k up to `finest`.
     fn draw(draw: &mut Draw, finest: i64) -> Outline {
         let k = draw.integer(4, finest) as i32;
         let thickness = scale_by_power_of_two(1.0 + draw.unit(), -k);

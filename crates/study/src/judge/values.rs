@@ -42,8 +42,8 @@ pub(super) struct Allowed<R> {
 }
 
 impl<R: Real> Allowed<R> {
-    /// In an arithmetic that does not round, of a case in a scalar with this unit roundoff and this least
-    /// number.
+    /// The exact values of a case, in an arithmetic that does not round; the unit roundoff and the least number are those of
+    /// the case's scalar.
     pub(super) fn of<F: Float>(case: &Case<F>) -> Allowed<R> {
         let (ray, triangle) = case.widen().lift(R::number);
         let Triangle { a, b, c } = &triangle;
@@ -136,7 +136,7 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
-/// Those of t, u and v (0, 1 and 2) that a kernel gives; not a t that is rightly infinite, which is as near as a number can
+/// The values among t, u and v (0, 1 and 2) that a kernel gives; not a t that is rightly infinite, which is as near as a number can
 /// be.
 pub(super) fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
     let is_given = given(gives);

@@ -80,15 +80,15 @@ fn is_short(t: f64) -> bool {
     if t.is_infinite() {
         return true;
     }
-    let t = Digits::of(t);
-    t.length() <= NARROW && -t.exponent <= NARROW
+    let digits = Digits::of(t);
+    digits.length() <= NARROW && -digits.exponent <= NARROW
 }
 
 impl<I: Integer> Integers<I>
 where
     for<'a> &'a I: RefNum<I>,
 {
-    /// From numbers whose exponents are not negative, and an interval.
+    /// The case from numbers whose exponents are not negative, and an interval.
     fn new(vectors: [[Digits; 3]; 5], ends: [f64; 2]) -> Integers<I> {
         let [o, d, vertices @ ..] = vectors.map(|vector| vector.map(Digits::integer));
         let [t_min, t_max] = ends.map(IntegerFraction::of);

@@ -253,7 +253,7 @@ fn last_bits(draw: &mut Draw) -> Case<f64> {
         I64Vec3::from(point)
     });
     match draw.below(4) {
-        // In the plane, and on it.
+        // A direction in the plane, and a triangle without area.
         0 => d = (a - b) / 2,
         1 => c = a / 2 + b / 2,
         2 => {

@@ -23,7 +23,7 @@ pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> 
     CaseGroup::One(Case::new(point, direction, triangle))
 }
 
-/// From a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
+/// A segment from a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
 /// or their difference and t_max = 1.
 pub fn segment<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
     let HitPoint { point, triangle } = hit(setup, draw);
