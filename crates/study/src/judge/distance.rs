@@ -55,7 +55,8 @@ impl<R: Real> Squares<R> {
     /// The squares of a valid case, in an arithmetic that does not round. `crosses` says whether the line crosses
     /// the plane at one point.
     pub fn of(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>, crosses: bool) -> Squares<R> {
-        let (o, d) = (&ray.origin, &ray.direction);
+        let o = &ray.origin;
+        let d = &ray.direction;
         let edges = triangle.edges();
         let [ab, bc, ca] = edges.map(|(p, q)| square(&q.minus(p)));
         let [to_ab, to_bc, to_ca] = edges.map(|(p, q)| line_to_segment(o, d, p, q));

@@ -122,7 +122,9 @@ fn by_floats(case: &Case<f64>, roundoff: f64) -> Option<[KnownValue; 3]> {
         return None;
     }
     let [o, d, a, b, c] = vectors.map(DVec3::from);
-    let (ab, ac, start) = (b - a, c - a, a - o);
+    let ab = b - a;
+    let ac = c - a;
+    let start = a - o;
     let rows = [Row::cross(ab, ac), Row::cross(d, ac), Row::cross(ab, d)];
     let normal = &rows[0];
     let signed_determinant = d.dot(normal.vector);

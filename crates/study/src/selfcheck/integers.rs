@@ -183,7 +183,8 @@ where
     /// For each edge ab, bc, ca, seen along an axis: twice the area that the edge spans with the line's point, positive
     /// inside.
     fn edges(&self, axis: usize, is_clockwise: bool) -> [Linear<I>; 3] {
-        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        let i = (axis + 1) % 3;
+        let j = (axis + 2) % 3;
         [(0, 1), (1, 2), (2, 0)].map(|(from, to)| {
             let from = &self.vertices[from];
             let to = &self.vertices[to];
@@ -246,9 +247,9 @@ where
 
     /// The order of the line's point o + t d and a vertex, by x, then y, then z.
     fn compare_at(&self, t: &IntegerFraction<I>, vertex: &IntegerPoint<I>) -> Ordering {
-        for i in 0..3 {
+        for (i, coordinate) in vertex.iter().enumerate() {
             let of_line = &self.o[i] * &t.denominator + &self.d[i] * &t.numerator;
-            let order = of_line.cmp(&(&vertex[i] * &t.denominator));
+            let order = of_line.cmp(&(coordinate * &t.denominator));
             if order.is_ne() {
                 return order;
             }
@@ -307,7 +308,8 @@ where
                 high = Some(zero);
             }
         }
-        let (low, high) = (low?, high?);
+        let low = low?;
+        let high = high?;
         low.compare(&high).is_le().then_some(Range { low, high })
     }
 

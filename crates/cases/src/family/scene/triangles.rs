@@ -119,9 +119,6 @@ impl<F: Float> TriangleSource<F> for Scene {
         Ring { center, triangles }
     }
 
-    /// Unit vectors exactly in a generic plane do not exist among floats. What does: rays along an axis in
-    /// a plane that holds the axis, rays in planes of constant height, and, if directions may have any
-    /// length, sums of edges on a grid.
     fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
         let size = edge_length(draw, self);
         let is_tilted = matches!(self.plane, PlaneKind::Generic | PlaneKind::Terrain);
@@ -139,7 +136,9 @@ impl<F: Float> TriangleSource<F> for Scene {
     }
 }
 
-/// A triangle, and a direction parallel to its plane, of one of the sorts that exist among floats.
+/// A triangle, and a direction exactly parallel to its plane. Unit vectors in a generic plane do not exist among floats.
+/// What does: rays along an axis in a plane that holds the axis, rays in planes of constant height, and, if directions may
+/// have any length, sums of edges on a grid.
 fn parallel_of_any_sort<F: Float>(
     draw: &mut Draw,
     scene: &Scene,
