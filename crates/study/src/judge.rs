@@ -8,6 +8,7 @@ mod distance;
 mod elsewhere;
 mod expected;
 mod group;
+mod limits;
 mod relation;
 #[cfg(test)]
 mod tests;
@@ -21,10 +22,9 @@ pub use expected::{Demands, Kinds, ask_all, suspects};
 pub use group::{
     GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,
 };
+pub use limits::ValueLimits;
 pub use relation::{Part, RelatedValues, Relation, answers_as, is_plain, other_demands};
-pub use values::{
-    ALLOWANCE, ValueErrors, ValueLimits, exact_times, exact_values_are_near, rounds_to_infinity,
-};
+pub use values::{ALLOWANCE, ValueErrors, exact_times, exact_values_are_near, rounds_to_infinity};
 
 use crate::arith::{Exact, Float, Real, Triple};
 use crate::case::Case;

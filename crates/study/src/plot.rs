@@ -1,6 +1,7 @@
 //! The parts that all plots share: axes with their ticks, stepped lines with their intervals, and text for XML.
 
 use crate::printable::is_obeyed;
+use std::cmp::Ordering;
 
 /// Each label of an axis with its place.
 pub type Ticks = Vec<(f64, String)>;
@@ -10,15 +11,19 @@ pub type Decades = (i32, i32);
 
 /// The decades of some sizes, with one more on each side; none without sizes.
 pub fn decades_around(sizes: impl Iterator<Item = f64>) -> Option<Decades> {
-    let (low, high) = sizes
-        .map(|size| size.abs().log10())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
-    (low <= high).then(|| {
-        let low = low.floor() as i32 - 1;
-        (low, (high.ceil() as i32 + 1).max(low + 2))
-    })
+    let mut least = f64::INFINITY;
+    let mut most = f64::NEG_INFINITY;
+    for size in sizes {
+        let exponent = size.abs().log10();
+        least = least.min(exponent);
+        most = most.max(exponent);
+    }
+    if least > most {
+        return None;
+    }
+    let low = least.floor() as i32 - 1;
+    let high = most.ceil() as i32 + 1;
+    Some((low, high.max(low + 2)))
 }
 
 /// Epsilons across: zero in a stretch of its own, negative and positive ones logarithmic on each side.
@@ -32,14 +37,15 @@ pub struct EpsilonAxis {
 }
 
 impl EpsilonAxis {
-    /// Between two places, with a stretch around zero of some width.
+    /// The axis between two places, with a stretch around zero of some width.
     pub fn new(left: f64, right: f64, zero: f64, mut decades: [Option<Decades>; 2]) -> EpsilonAxis {
         if decades == [None, None] {
             decades[1] = Some((-8, 0));
         }
-        let [negative, positive] =
-            decades.map(|span| f64::from(span.map_or(0, |(low, high)| high - low)));
-        let start = left + (right - left - zero) * negative / (negative + positive).max(1.0);
+        let counts = decades.map(|span| span.map_or(0, |(low, high)| high - low));
+        let [negative, positive] = counts.map(f64::from);
+        let all = (negative + positive).max(1.0);
+        let start = left + (right - left - zero) * negative / all;
         EpsilonAxis {
             left,
             right,
@@ -51,14 +57,13 @@ impl EpsilonAxis {
     /// The place of an epsilon; one beyond the axis is at its end.
     pub fn x(&self, epsilon: f64) -> f64 {
         let (start, end) = self.zero;
-        let along = |(low, high): Decades| {
-            ((epsilon.abs().log10() - f64::from(low)) / f64::from(high - low)).clamp(0.0, 1.0)
-        };
-        let [negative, positive] = self.decades.map(|span| span.map_or(0.0, along));
-        match epsilon {
-            e if e < 0.0 => start - negative * (start - self.left),
-            e if 0.0 < e => end + positive * (self.right - end),
-            _ => (start + end) / 2.0,
+        let [negative, positive] = self.decades.map(|span| share_along(span, epsilon));
+        if epsilon < 0.0 {
+            start - negative * (start - self.left)
+        } else if 0.0 < epsilon {
+            end + positive * (self.right - end)
+        } else {
+            (start + end) / 2.0
         }
     }
 
@@ -66,20 +71,32 @@ impl EpsilonAxis {
     pub fn ticks(&self, label: f64, edge: f64) -> Ticks {
         let middle = self.x(0.0);
         let mut ticks = vec![(middle, "0".to_owned())];
-        for (span, sign) in self.decades.iter().zip([-1.0, 1.0]) {
-            let Some((low, high)) = *span else { continue };
+        for (span, sign) in self.decades.into_iter().zip([-1.0, 1.0]) {
+            let Some((low, high)) = span else { continue };
             let place = |exponent: i32| self.x(sign * 10f64.powi(exponent));
             let decade = (place(high) - place(low)).abs() / f64::from(high - low);
             let stride = (label / decade.max(0.1)).ceil() as i32;
-            let shown = (low..=high).filter(|exponent| exponent % stride == 0);
-            let shown = shown
-                .map(|exponent| (place(exponent), exponent))
-                .filter(|(x, _)| 0.6 * label < (x - middle).abs() && x + 0.3 * label <= edge);
             let minus = if sign < 0.0 { "−" } else { "" };
-            ticks.extend(shown.map(|(x, e)| (x, format!("{minus}10{}", superscript(e)))));
+            for exponent in low..=high {
+                let x = place(exponent);
+                let is_clear_of_zero = 0.6 * label < (x - middle).abs();
+                let is_within_edge = x + 0.3 * label <= edge;
+                if exponent % stride == 0 && is_clear_of_zero && is_within_edge {
+                    ticks.push((x, format!("{minus}10{}", superscript(exponent))));
+                }
+            }
         }
         ticks
     }
+}
+
+/// How far along some decades the size of an epsilon is, from 0 to 1; 0 without decades.
+fn share_along(span: Option<Decades>, epsilon: f64) -> f64 {
+    let Some((low, high)) = span else {
+        return 0.0;
+    };
+    let from_low = epsilon.abs().log10() - f64::from(low);
+    (from_low / f64::from(high - low)).clamp(0.0, 1.0)
 }
 
 /// Shares upwards, logarithmic, with zero below the smallest.
@@ -94,7 +111,7 @@ pub struct ShareAxis {
 const NONE: f64 = 0.7;
 
 impl ShareAxis {
-    /// Down to one of so many, or at most so many decades.
+    /// The axis from 1 down to one in `of`, but by at most so many decades.
     pub fn new(top: f64, bottom: f64, of: u64, most: i32) -> ShareAxis {
         let lowest = -((of.max(1) as f64).log10().ceil() as i32);
         ShareAxis {
@@ -117,13 +134,13 @@ impl ShareAxis {
 
     /// Powers of ten as percentages.
     pub fn ticks(&self) -> Ticks {
-        let label = |exponent: i32| {
+        let mut ticks = Vec::new();
+        for exponent in self.lowest..=0 {
             let digits = (-2 - exponent).max(0) as usize;
-            format!("{:.digits$} %", 10f64.powi(exponent + 2))
-        };
-        (self.lowest..=0)
-            .map(|e| (self.y(10f64.powi(e)), label(e)))
-            .collect()
+            let label = format!("{:.digits$} %", 10f64.powi(exponent + 2));
+            ticks.push((self.y(10f64.powi(exponent)), label));
+        }
+        ticks
     }
 
     /// A share that changes at some places, from each place on to the next and at last to the right
@@ -133,34 +150,44 @@ impl ShareAxis {
         points: impl Iterator<Item = (f64, f64, Option<[f64; 2]>)>,
         right: f64,
     ) -> (String, String) {
-        let (mut path, mut upper, mut lower) = (String::new(), String::new(), Vec::new());
+        let mut path = String::new();
+        let mut upper = String::new();
+        let mut lower = Vec::new();
         let mut last = None;
-        for (x, share, interval) in points.filter(|(x, ..)| !x.is_nan()) {
-            if last == Some(share) {
+        for (x, share, interval) in points {
+            if x.is_nan() || last == Some(share) {
                 continue;
             }
-            let step = |y: f64| match last {
-                None => format!("M{x:.1} {y:.1}"),
-                Some(_) => format!("H{x:.1}V{y:.1}"),
-            };
-            path.push_str(&step(self.y(share)));
+            let is_first = last.is_none();
+            path.push_str(&step_to(x, self.y(share), is_first));
             if let Some([low, high]) = interval {
-                upper.push_str(&step(self.y(high)));
+                upper.push_str(&step_to(x, self.y(high), is_first));
                 lower.push((x, self.y(low)));
             }
             last = Some(share);
         }
         path.push_str(&format!("H{right:.1}"));
-        let Some((_, low)) = lower.last() else {
+        if lower.is_empty() {
             return (path, String::new());
-        };
-        // Back along the lower ends.
-        let mut band = format!("{upper}H{right:.1}V{low:.1}");
-        for pair in lower.windows(2).rev() {
-            band.push_str(&format!("H{:.1}V{:.1}", pair[1].0, pair[0].1));
         }
-        band.push_str(&format!("H{:.1}Z", lower[0].0));
+        // Back along the lower ends.
+        let mut band = upper;
+        let mut to = right;
+        for (x, low) in lower.into_iter().rev() {
+            band.push_str(&format!("H{to:.1}V{low:.1}"));
+            to = x;
+        }
+        band.push_str(&format!("H{to:.1}Z"));
         (path, band)
+    }
+}
+
+/// A step of a path: across, and then up or down.
+fn step_to(x: f64, y: f64, is_first: bool) -> String {
+    if is_first {
+        format!("M{x:.1} {y:.1}")
+    } else {
+        format!("H{x:.1}V{y:.1}")
     }
 }
 
@@ -170,34 +197,32 @@ pub fn pixel_ticks(count: usize, unit: u64) -> Ticks {
     let centre = count / 2;
     let mut pixels = vec![0, centre, count - 1];
     pixels.dedup();
-    let tick = |pixel: usize| {
+    let mut ticks = Vec::with_capacity(pixels.len());
+    for pixel in pixels {
+        let place = (pixel as f64 + 0.5) / count as f64;
         let distance = group_digits(pixel.abs_diff(centre) as u64 * unit);
-        let sign = ["−", "", "+"][(pixel.cmp(&centre) as i8 + 1) as usize];
-        (
-            (pixel as f64 + 0.5) / count as f64,
-            format!("{sign}{distance}"),
-        )
-    };
-    pixels.into_iter().map(tick).collect()
+        let sign = match pixel.cmp(&centre) {
+            Ordering::Less => "−",
+            Ordering::Equal => "",
+            Ordering::Greater => "+",
+        };
+        ticks.push((place, format!("{sign}{distance}")));
+    }
+    ticks
 }
 
 /// A number with a comma after each third digit.
 pub fn group_digits(number: u64) -> String {
     let digits = number.to_string();
-    let groups = digits.as_bytes().rchunks(3).rev();
-    groups
-        .map(String::from_utf8_lossy)
-        .collect::<Vec<_>>()
-        .join(",")
+    let from_the_right = digits.as_bytes().rchunks(3).map(String::from_utf8_lossy);
+    let groups: Vec<_> = from_the_right.rev().collect();
+    groups.join(",")
 }
 
 /// `3 findings`, `1 finding`.
 pub fn number_of(count: u64, one: &str, many: &str) -> String {
-    format!(
-        "{} {}",
-        group_digits(count),
-        if count == 1 { one } else { many }
-    )
+    let noun = if count == 1 { one } else { many };
+    format!("{} {noun}", group_digits(count))
 }
 
 /// An exponent in raised digits.

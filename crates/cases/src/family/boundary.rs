@@ -24,11 +24,11 @@ fn reach(draw: &mut Draw) -> i64 {
 /// A ray through a lattice point of the plane, from a lattice point at integer t.
 fn through(
     draw: &mut Draw,
-    triangle: [LatticePoint; 3],
+    corners: [LatticePoint; 3],
     target: LatticePoint,
     reach: i64,
 ) -> IntegerCase {
-    let triangle = shuffle(draw, triangle);
+    let triangle = shuffle(draw, corners);
     let direction = transversal(draw, normal(triangle), reach / 8);
     let origin = target - direction * draw.integer(1, 4);
     IntegerCase {
@@ -77,11 +77,15 @@ impl Recipe for EdgeNear {
     const KEEPS: Promise = Promise::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        CaseGroup::One(near(draw, |draw| {
-            let s = 0.0625 + 0.875 * draw.unit();
-            draw.pick(&[[0.0, s, 1.0 - s], [s, 0.0, 1.0 - s], [s, 1.0 - s, 0.0]])
-        }))
+        CaseGroup::One(near(draw, edge_weights))
     }
+}
+
+/// Weights on one of the edges, away from its ends.
+fn edge_weights(draw: &mut Draw) -> [f64; 3] {
+    let s = 0.0625 + 0.875 * draw.unit();
+    let rest = 1.0 - s;
+    draw.pick(&[[0.0, s, rest], [s, 0.0, rest], [s, rest, 0.0]])
 }
 
 impl Recipe for VertexNear {
@@ -92,17 +96,21 @@ impl Recipe for VertexNear {
     const KEEPS: Promise = Promise::Crossings(|crossing| crossing.t_sign == Ordering::Greater);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        CaseGroup::One(near(draw, |draw| {
-            draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-        }))
+        CaseGroup::One(near(draw, vertex_weights))
     }
 }
 
-/// Aimed at the float nearest to a point of the boundary, then nudged.
-fn near<F: Float>(draw: &mut Draw, weights: impl Fn(&mut Draw) -> [f64; 3]) -> Case<F> {
+/// Weights of one of the vertices.
+fn vertex_weights(draw: &mut Draw) -> [f64; 3] {
+    draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+}
+
+/// A ray that is aimed at the float nearest to a point of the boundary, then nudged.
+fn near<F: Float>(draw: &mut Draw, draw_weights: fn(&mut Draw) -> [f64; 3]) -> Case<F> {
     loop {
         let triangle = well_shaped::<F>(draw);
-        let target = combination(triangle, weights(draw).map(F::from_f64));
+        let weights = draw_weights(draw).map(F::from_f64);
+        let target = combination(triangle, weights);
         let (origin, direction) = nudged_ray(draw, target);
         if is_steep(direction, triangle) {
             return Case::new(origin, direction, triangle);
@@ -114,17 +122,18 @@ fn near<F: Float>(draw: &mut Draw, weights: impl Fn(&mut Draw) -> [f64; 3]) -> C
 pub(super) fn nudged_ray<F: Float>(draw: &mut Draw, target: [F; 3]) -> ([F; 3], [F; 3]) {
     let origin = draw.point::<F>();
     let ulps = draw.pick(&[0, 1, 4, 16]);
-    (origin, nudged(draw, toward(origin, target), ulps))
+    let direction = nudged(draw, toward(origin, target), ulps);
+    (origin, direction)
 }
 
-/// Each coordinate moved by at most so many ulps.
+/// A vector whose coordinates are moved by at most some ulps each.
 pub(crate) fn nudged<F: Float>(draw: &mut Draw, vector: [F; 3], ulps: i64) -> [F; 3] {
     vector.map(|x| x.offset_ulps(draw.integer(-ulps, ulps)))
 }
 
 /// The direction to a rounded point.
 pub(crate) fn toward<F: Float>(origin: [F; 3], target: [F; 3]) -> [F; 3] {
-    std::array::from_fn(|i| target[i] - origin[i])
+    std::array::from_fn(|axis| target[axis] - origin[axis])
 }
 
 /// The middle of two points, rounded.

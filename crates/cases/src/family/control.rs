@@ -2,11 +2,13 @@
 //! from every boundary.
 
 use super::integer::shuffle;
+use super::scene::wide;
 use super::{CaseGroup, Corners, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
 use crate::kernel::Scalar;
 use crate::truth::Feature;
+use glam::DVec3;
 use std::cmp::Ordering;
 
 pub(super) struct Interior;
@@ -21,7 +23,7 @@ impl Recipe for Interior {
     });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        CaseGroup::One(aimed(draw, &mut interior_weights))
+        CaseGroup::One(aimed(draw, interior_weights))
     }
 }
 
@@ -34,7 +36,7 @@ impl Recipe for Outside {
     });
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        CaseGroup::One(aimed(draw, &mut outside_weights))
+        CaseGroup::One(aimed(draw, outside_weights))
     }
 }
 
@@ -64,17 +66,14 @@ pub(super) fn interior_weights(draw: &mut Draw) -> [f64; 3] {
 
 /// A ray at the point of a random well-shaped triangle that has the given weights, from far enough
 /// and steep enough that rounding leaves it there.
-pub(super) fn aimed<F: Float>(
-    draw: &mut Draw,
-    draw_weights: &mut dyn FnMut(&mut Draw) -> [f64; 3],
-) -> Case<F> {
+pub(super) fn aimed<F: Float>(draw: &mut Draw, draw_weights: fn(&mut Draw) -> [f64; 3]) -> Case<F> {
     loop {
         let triangle = well_shaped::<F>(draw);
         let weights = draw_weights(draw).map(F::from_f64);
         let target = combination(triangle, weights);
         let origin = draw.point::<F>();
         let length = F::from_f64(0.25 + 3.75 * draw.unit());
-        let direction = std::array::from_fn(|i| (target[i] - origin[i]) * length);
+        let direction = std::array::from_fn(|axis| (target[axis] - origin[axis]) * length);
         if is_steep(direction, triangle) {
             return Case::new(origin, direction, triangle);
         }
@@ -96,23 +95,22 @@ pub(super) fn well_shaped<F: Float>(draw: &mut Draw) -> Corners<F> {
 pub(super) fn is_steep<F: Float>(direction: [F; 3], triangle: Corners<F>) -> bool {
     let d = wide(direction);
     let n = wide_normal(triangle);
-    let along = n.dot(d);
     let length_squared = d.dot(d);
-    length_squared > 0.0625 && along * along > length_squared * n.dot(n) / 64.0
+    // The sine is the determinant over the lengths of both.
+    let determinant = n.dot(d);
+    let is_long = length_squared > 0.0625;
+    is_long && determinant * determinant > length_squared * n.dot(n) / 64.0
 }
 
 /// The point with the given weights, in the scalar's arithmetic.
 pub fn combination<F: Float>(triangle: Corners<F>, weights: [F; 3]) -> [F; 3] {
     let [a, b, c] = triangle;
     let [u, v, w] = weights;
-    std::array::from_fn(|i| a[i] * u + b[i] * v + c[i] * w)
+    std::array::from_fn(|axis| a[axis] * u + b[axis] * v + c[axis] * w)
 }
 
-fn wide<F: Float>(v: [F; 3]) -> glam::DVec3 {
-    v.map(F::to_f64).into()
-}
-
-fn wide_normal<F: Float>(triangle: Corners<F>) -> glam::DVec3 {
+/// The normal of a triangle in `f64`.
+fn wide_normal<F: Float>(triangle: Corners<F>) -> DVec3 {
     let [a, b, c] = triangle.map(wide);
     (b - a).cross(c - a)
 }

@@ -16,7 +16,7 @@ impl Recipe for DirectionLengthFamily {
     const PROMISE: &'static str = "transversal, the direction scaled by 2^-60 to 2^60";
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        let case = aimed::<F>(draw, &mut |draw| {
+        let case = aimed::<F>(draw, |draw| {
             let s = draw.unit();
             if draw.coin() {
                 shuffle(draw, [s, 1.0 - s, 0.0])

@@ -51,6 +51,15 @@ const LEAST_STEP: f64 = 1.0 / 16.0;
 /// Products of three integers up to this are exact in `f64`, and so are their sums.
 const LARGEST_INTEGER: f64 = 8192.0;
 
+/// True if all coordinates of a case are small integers.
+fn is_lattice<F: Float>(case: &Case<F>) -> bool {
+    let vectors = case.vectors();
+    vectors.as_flattened().iter().all(|x| {
+        let x = x.to_f64();
+        x.fract() == 0.0 && x.abs() <= LARGEST_INTEGER
+    })
+}
+
 /// True if the number has so few digits that its product with a sum of products of three such integers is exact.
 fn is_short(t: f64) -> bool {
     (t * 16.0).fract() == 0.0 && t.abs() < 32.0
@@ -60,36 +69,34 @@ impl Crossing {
     fn of<F: Float>(case: &Case<F>) -> Crossing {
         let [origin, direction, a, b, c] = case.vectors().map(wide);
         let normal = (b - a).cross(c - a);
-        let (numerator, denominator) = (normal.dot(a - origin), normal.dot(direction));
-        let middle = (a + b + c) / 3.0;
-        let nearest = direction.dot(middle - origin) / direction.dot(direction);
+        let numerator = normal.dot(a - origin);
+        let denominator = normal.dot(direction);
         let t = if denominator == 0.0 {
-            nearest
+            let middle = (a + b + c) / 3.0;
+            direction.dot(middle - origin) / direction.dot(direction)
         } else {
             numerator / denominator
         };
-        let size = (b - a).abs().max((c - a).abs()).max_element() / direction.abs().max_element();
-        let numbers = [origin, direction, a, b, c]
-            .into_iter()
-            .flat_map(|v| v.to_array());
-        let mut numbers = numbers.map(f64::abs);
-        let is_lattice = numbers.all(|x| x.fract() == 0.0 && x <= LARGEST_INTEGER);
+        let longest_edge = (b - a).abs().max((c - a).abs()).max_element();
+        let speed = direction.abs().max_element();
         Crossing {
             t,
-            step: t.abs().max(size * LEAST_STEP),
-            is_exact: is_lattice && is_short(t) && t * denominator == numerator,
+            step: t.abs().max(longest_edge / speed * LEAST_STEP),
+            is_exact: is_lattice(case) && is_short(t) && t * denominator == numerator,
             ends: [case.ray.t_min.to_f64(), case.ray.t_max.to_f64()],
         }
     }
 
-    /// An interval: 16 of 32 are the case's own, 10 of 32 hold the crossing, 5 of 32 do not, and on lattices one of 32
+    /// An interval about the crossing: 16 of 32 are the case's own, 10 of 32 hold the crossing, 5 of 32 do not, and on lattices one of 32
     /// ends at it.
     fn interval(&self, draw: &mut Draw) -> [f64; 2] {
         let near = self.step * (0.25 + 0.5 * draw.unit());
         let far = self.step * (1.25 + 2.75 * draw.unit());
-        // With t > 0 the first two are positive, and the third is negative.
-        let [before, after, far_before, far_after] =
-            [self.t - near, self.t + near, self.t - far, self.t + far];
+        let before = self.t - near;
+        let after = self.t + near;
+        // On the other side of t = 0, where t > 0.
+        let far_before = self.t - far;
+        let far_after = self.t + far;
         match draw.below(32) {
             0..16 => self.ends,
             16..20 if self.t < 0.0 => [far_before, 0.0],
@@ -111,11 +118,13 @@ impl Crossing {
         }
     }
 
-    /// From the case's own start to far beyond the triangle; three of four intervals are the case's own.
+    /// An interval from the case's own start to far beyond the triangle; three of four are the case's own.
     fn end_far_beyond(&self, draw: &mut Draw) -> [f64; 2] {
-        match draw.below(4) {
-            0 => [self.ends[0], self.step * (1.0 + 7.0 * draw.unit())],
-            _ => self.ends,
-        }
+        let [start, own_end] = self.ends;
+        let end = match draw.below(4) {
+            0 => self.step * (1.0 + 7.0 * draw.unit()),
+            _ => own_end,
+        };
+        [start, end]
     }
 }

@@ -3,7 +3,7 @@
 use crate::arith::Float;
 
 /// A ray through the middle of a segment (or through a point given twice), from about as far away as
-/// said. Where floats allow it the middle lies on its line exactly, though it need be no float itself:
+/// a vector leads. Where floats allow it the middle lies on its line exactly, though it need be no float itself:
 /// the direction is (p - o) + (q - o).
 pub(crate) fn exact_ray<F: Float>(ends: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3], [F; 3]) {
     let [p, q] = ends;
@@ -18,10 +18,12 @@ pub(crate) fn exact_ray<F: Float>(ends: [[F; 3]; 2], away: [f64; 3]) -> ([F; 3],
 struct AxisRay<F> {
     origin: F,
     direction: F,
+    /// True if d is the sum without rounding.
+    is_exact: bool,
 }
 
-/// The ray along one axis with d = (p - o) + (q - o), exactly if such were found: with o on the coarser
-/// grid of p and q, and near enough for d to keep the finer one's digits.
+/// The ray along one axis with d = (p - o) + (q - o). The sum is exact if o is on the coarser grid of p and q, and near
+/// enough for d to keep the finer one's digits: so if the wanted distance does not do, a shorter one is taken.
 fn exact_axis<F: Float>(p: F, q: F, away: f64) -> AxisRay<F> {
     let wide_p = p.to_f64();
     let wide_q = q.to_f64();
@@ -31,25 +33,29 @@ fn exact_axis<F: Float>(p: F, q: F, away: f64) -> AxisRay<F> {
     let fine = ulp_or(p, f64::INFINITY).min(ulp_or(q, f64::INFINITY));
     let kept_digits = F::DIGITS - 3;
     let reach = fine * (1u64 << kept_digits) as f64;
-    let within_reach = away.min(reach).max(-reach);
-    let mut found = AxisRay {
-        origin: F::zero(),
-        direction: F::zero(),
-    };
-    for distance in [away, within_reach] {
-        let start = rounded_to(middle - distance, coarse);
-        let origin = F::from_f64(start);
-        let (sum, is_exact) = sum_of_differences(wide_p, wide_q, origin.to_f64());
-        let direction = F::from_f64(sum);
-        found = AxisRay { origin, direction };
-        if is_exact && direction.to_f64() == sum {
-            break;
-        }
+    let wanted = AxisRay::from_start(rounded_to(middle - away, coarse), wide_p, wide_q);
+    if wanted.is_exact {
+        return wanted;
     }
-    found
+    let within_reach = away.min(reach).max(-reach);
+    AxisRay::from_start(rounded_to(middle - within_reach, coarse), wide_p, wide_q)
 }
 
-/// The distance from a number to its neighbours; of zero what is given.
+impl<F: Float> AxisRay<F> {
+    /// The ray from a rounded start.
+    fn from_start(start: f64, p: f64, q: f64) -> AxisRay<F> {
+        let origin = F::from_f64(start);
+        let (sum, is_exact_sum) = sum_of_differences(p, q, origin.to_f64());
+        let direction = F::from_f64(sum);
+        AxisRay {
+            origin,
+            direction,
+            is_exact: is_exact_sum && direction.to_f64() == sum,
+        }
+    }
+}
+
+/// The distance from a number to its neighbours; another number for zero.
 fn ulp_or<F: Float>(x: F, of_zero: f64) -> f64 {
     if x.is_zero() {
         of_zero

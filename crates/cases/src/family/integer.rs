@@ -102,3 +102,10 @@ pub(super) fn triangle_with_edge_point(
     let point = a + step * draw.integer(1, parts - 1);
     ([a, a + step * parts, a + side], point)
 }
+
+/// A doubled triangle with area, and a doubled lattice point of its first edge: the middle of that point and the third
+/// vertex is a lattice point too.
+pub(super) fn doubled_triangle(draw: &mut Draw, reach: i64) -> ([LatticePoint; 3], LatticePoint) {
+    let (triangle, edge_point) = triangle_with_edge_point(draw, reach);
+    (triangle.map(|vertex| vertex * 2), edge_point * 2)
+}

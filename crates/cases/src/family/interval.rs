@@ -1,6 +1,6 @@
 //! `behind`, `interval-ends`: hits that the interval decides.
 
-use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
+use super::integer::{IntegerCase, doubled_triangle, normal, shuffle, transversal};
 use super::{CaseGroup, Promise, Recipe};
 use crate::case::Draw;
 use crate::kernel::Scalar;
@@ -13,8 +13,7 @@ pub(super) struct IntervalEnds;
 /// A lattice ray through a point of a triangle at integer t.
 fn at(draw: &mut Draw, t: i64) -> IntegerCase {
     let reach = draw.pick(&[64, 2048]);
-    let ([a, b, c], edge_point) = triangle_with_edge_point(draw, reach);
-    let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p * 2);
+    let ([a, b, c], edge_point) = doubled_triangle(draw, reach);
     let middle = (c + edge_point) / 2;
     let triangle = shuffle(draw, [a, b, c]);
     let target = draw.pick(&[middle, middle, middle, edge_point, c]);
@@ -48,9 +47,9 @@ impl Recipe for IntervalEnds {
     const KEEPS: Promise = Promise::Crossings(|crossing| crossing.feature != Feature::Outside);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        let t = draw.integer(-4, 4);
-        let case = at(draw, t).case::<F>();
-        let t = t as f64;
+        let steps = draw.integer(-4, 4);
+        let case = at(draw, steps).case::<F>();
+        let t = steps as f64;
         let place = draw.pick(&PLACES);
         let gap = draw.pick(&[0.25, 1.0, 2.0, 4.0]);
         let length = draw.pick(&[0.25, 1.0, 4.0, f64::INFINITY]);
@@ -59,13 +58,14 @@ impl Recipe for IntervalEnds {
             Place::AtMin => [t, t + length],
             Place::Within => [t - gap, t + length],
             Place::AtMax => [t - gap, t],
-            Place::Beyond => [t - gap - gap, t - gap],
-        };
-        CaseGroup::One(case.on(F::from_f64(t_min), F::from_f64(t_max)))
+            Place::Beyond => [t - 2.0 * gap, t - gap],
+        }
+        .map(F::from_f64);
+        CaseGroup::One(case.on(t_min, t_max))
     }
 }
 
-/// Where t lies: two in three are at an end, which nothing else asks so often.
+/// Where t lies: two in three are at an end, because no other family puts so many there.
 const PLACES: [Place; 9] = [
     Place::Before,
     Place::AtMin,

@@ -1,8 +1,8 @@
 //! `mesh`: rays at the edges, vertices and faces of a mesh: near, and exact where such a ray exists on
 //! the float grid. The oracle tells which are; reports give the share.
 
-use super::boundary::{nudged, toward};
-use super::control::combination;
+use super::boundary::{middle, nudged, toward};
+use super::control::{combination, interior_weights};
 use super::drawn_interval::draw_interval;
 use super::{Grouping, apply, id_of};
 use crate::arith::Float;
@@ -56,16 +56,9 @@ impl MeshFamily {
         seed: u64,
         index: u64,
     ) -> CaseId {
-        let mesh = Some(self.mesh.digest.clone());
-        id_of::<F>(
-            family,
-            Parameters {
-                mesh,
-                ..parameters.clone()
-            },
-            seed,
-            index,
-        )
+        let mut with_mesh = parameters.clone();
+        with_mesh.mesh = Some(self.mesh.digest.clone());
+        id_of::<F>(family, with_mesh, seed, index)
     }
 
     /// Case `index` of the set of a seed.
@@ -75,7 +68,7 @@ impl MeshFamily {
         let triangle = self.mesh.vertices::<F>(number);
         let target = target(&mut draw, triangle);
         let (origin, direction) = if draw.coin() {
-            exact_ray(&mut draw, target)
+            ray_through(&mut draw, target)
         } else {
             near_ray(&mut draw, target, triangle)
         };
@@ -89,51 +82,63 @@ impl MeshFamily {
 /// A vertex, a point of an edge (its middle, if that is a float) or a point of the face.
 fn target<F: Float>(draw: &mut Draw, triangle: [[F; 3]; 3]) -> [F; 3] {
     let corner = draw.below(3);
-    let (p, q) = (triangle[corner], triangle[(corner + 1) % 3]);
-    let half = F::from_f64(0.5);
+    let p = triangle[corner];
+    let q = triangle[(corner + 1) % 3];
     match draw.below(4) {
         0 => p,
-        1 => std::array::from_fn(|i| p[i] * half + q[i] * half),
+        1 => middle(p, q),
         2 => {
             let s = F::from_f64(0.0625 + 0.875 * draw.unit());
-            std::array::from_fn(|i| p[i] + (q[i] - p[i]) * s)
+            std::array::from_fn(|axis| p[axis] + (q[axis] - p[axis]) * s)
         }
         _ => {
-            let weights = super::control::interior_weights(draw);
-            combination(triangle, weights.map(F::from_f64))
+            let weights = interior_weights(draw).map(F::from_f64);
+            combination(triangle, weights)
         }
     }
 }
 
 /// A ray whose point at t = 1 is the target exactly: each coordinate of the direction is a multiple
 /// of the target's ulp, smaller than the target and of its sign, so that the origin is a float.
-fn exact_ray<F: Float>(draw: &mut Draw, target: [F; 3]) -> ([F; 3], [F; 3]) {
-    let largest = target.iter().fold(0.0, |m: f64, x| m.max(x.to_f64().abs()));
+fn ray_through<F: Float>(draw: &mut Draw, target: [F; 3]) -> ([F; 3], [F; 3]) {
+    let size = positive_or_one(extent(target, [F::zero(); 3]));
     let direction = target.map(|x| {
         if x.is_zero() || !x.is_finite() {
             // Any float will do: the origin is its negative.
-            return F::from_f64(
-                (2.0 * draw.unit() - 1.0) * if largest > 0.0 { largest } else { 1.0 },
-            );
+            let share = 2.0 * draw.unit() - 1.0;
+            return F::from_f64(share * size);
         }
-        let digits = draw.integer(1, 1 << (F::DIGITS - 2)) as f64;
-        let step = x.ulp() * F::from_f64(digits);
+        let ulps = draw.integer(1, 1 << (F::DIGITS - 2)) as f64;
+        let step = x.ulp() * F::from_f64(ulps);
         if x.is_sign_negative() { -step } else { step }
     });
-    (toward(direction, target), direction)
+    let origin = toward(direction, target);
+    (origin, direction)
 }
 
 /// A ray from about the triangle's size away, aimed at the target and nudged by ulps.
 fn near_ray<F: Float>(draw: &mut Draw, target: [F; 3], [a, b, c]: [[F; 3]; 3]) -> ([F; 3], [F; 3]) {
-    let extent = |p: [F; 3], q: [F; 3]| {
-        (0..3).fold(0.0, |m: f64, i| {
-            m.max((p[i].to_f64() - q[i].to_f64()).abs())
-        })
-    };
-    let size = extent(a, b).max(extent(b, c)).max(extent(c, a));
-    let distance = F::from_f64(if size > 0.0 { size } else { 1.0 } * (0.5 + 7.5 * draw.unit()));
+    let longest = extent(a, b).max(extent(b, c)).max(extent(c, a));
+    let size = positive_or_one(longest);
+    let distance = F::from_f64(size * (0.5 + 7.5 * draw.unit()));
     let away = draw.point::<F>();
-    let origin: [F; 3] = std::array::from_fn(|i| target[i] + away[i] * distance);
+    let origin = std::array::from_fn(|axis| target[axis] + away[axis] * distance);
     let ulps = draw.pick(&[0, 0, 1, 4]);
-    (origin, nudged(draw, toward(origin, target), ulps))
+    let direction = nudged(draw, toward(origin, target), ulps);
+    (origin, direction)
+}
+
+/// The largest difference between two points along an axis.
+fn extent<F: Float>(p: [F; 3], q: [F; 3]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for axis in 0..3 {
+        let difference = p[axis].to_f64() - q[axis].to_f64();
+        largest = largest.max(difference.abs());
+    }
+    largest
+}
+
+/// A size, or 1 in place of 0.
+fn positive_or_one(size: f64) -> f64 {
+    if 0.0 < size { size } else { 1.0 }
 }

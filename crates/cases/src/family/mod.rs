@@ -39,8 +39,8 @@ pub use mesh::MeshFamily;
 pub use question::Question;
 pub use ring::{add_ring, around};
 pub(crate) use scene::{
-    Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, circle, flat_along,
-    in_plane, rounded, unit_vector,
+    Corners, Pair, Parallel, RayAxes, Ring, TriangleSource, along_axis, circle, either_sign,
+    flat_along, in_plane, rounded, unit_vector,
 };
 pub use scene::{
     Pixel, STRATA, Stratum, TRIES, any_direction, missed_sine, pixel, pixel_draw, wide,

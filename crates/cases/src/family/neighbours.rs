@@ -3,8 +3,9 @@
 use super::boundary::{nudged, nudged_ray};
 use super::control::{combination, is_steep, well_shaped};
 use super::integer::{
-    IntegerCase, LatticePoint, float, lattice_point, normal, triangle_with_edge_point, turned,
+    LatticePoint, float, lattice_point, normal, triangle_with_edge_point, turned,
 };
+use super::scene::either_sign;
 use super::{CaseGroup, Corners, Grouping, Promise, Recipe};
 use crate::arith::Float;
 use crate::case::{Case, Draw};
@@ -23,49 +24,45 @@ impl Recipe for SharedEdgeFamily {
     const KEEPS: Promise = Promise::Together(are_two_crossings);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        CaseGroup::Group(if draw.coin() {
+        let cases = if draw.coin() {
             exact_pair(draw)
         } else {
             near_pair(draw)
-        })
+        };
+        CaseGroup::Group(cases)
     }
 }
 
-/// On the lattice, exactly through a point of the edge.
+/// Two triangles on the lattice, and a ray exactly through a point of their edge.
 fn exact_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
     let reach = draw.pick(&[32, 2048]);
     loop {
         let ([a, b, c], target) = triangle_with_edge_point(draw, reach);
         let other = a + lattice_point(draw, reach / 4);
         let direction = lattice_point(draw, reach / 8);
-        let first = [a, b, c];
-        let second = [b, a, other];
-        if direction.dot(normal(first)) == 0 || direction.dot(normal(second)) == 0 {
+        let triangles = [[a, b, c], [b, a, other]];
+        let is_parallel = |triangle: &[LatticePoint; 3]| direction.dot(normal(*triangle)) == 0;
+        if triangles.iter().any(is_parallel) {
             continue;
         }
         let origin = target - direction * draw.integer(1, 4);
-        let mut case = |triangle: [LatticePoint; 3]| {
-            IntegerCase {
-                origin,
-                direction,
-                triangle: turned(draw, triangle),
-            }
-            .case()
-        };
-        return [first, second].map(&mut case).into();
+        let corners = triangles.map(|triangle| triangle.map(float));
+        return turned_cases(draw, float(origin), float(direction), &corners);
     }
 }
 
-/// At the float nearest to a point of the edge, nudged.
+/// Two triangles, and a ray at the float nearest to a point of their edge, nudged.
 fn near_pair<F: Float>(draw: &mut Draw) -> Vec<Case<F>> {
     loop {
-        let [a, b, c] = well_shaped::<F>(draw);
+        let first = well_shaped::<F>(draw);
+        let [a, b, _] = first;
         let second = [b, a, draw.point()];
         let s = 0.0625 + 0.875 * draw.unit();
-        let target = combination([a, b, c], [s, 1.0 - s, 0.0].map(F::from_f64));
+        let weights = [s, 1.0 - s, 0.0].map(F::from_f64);
+        let target = combination(first, weights);
         let (origin, direction) = nudged_ray(draw, target);
-        if is_steep(direction, [a, b, c]) && is_steep(direction, second) {
-            return turned_cases(draw, origin, direction, &[[a, b, c], second]);
+        if is_steep(direction, first) && is_steep(direction, second) {
+            return turned_cases(draw, origin, direction, &[first, second]);
         }
     }
 }
@@ -95,38 +92,41 @@ impl Recipe for Fan {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let size = draw.pick(&[4, 64]);
         let center = lattice_point(draw, 8 * size);
-        let mut ring: Vec<LatticePoint> = Vec::with_capacity(8);
-        for (i, [x, y]) in RING.into_iter().enumerate() {
-            if i % 2 == 0 || draw.coin() {
-                let stretch = size * draw.integer(1, 2);
-                // Heights are small enough that every triangle faces up.
-                let height = draw.integer(-size / 4, size / 4);
-                ring.push(center + LatticePoint::new(x * stretch, y * stretch, height));
-            }
-        }
+        let ring = ring_around(draw, center, size);
         // Steeper than any triangle: down, with a small sideways part.
         let depth = 8 * size;
         let [x, y] = [(); 2].map(|()| draw.integer(-size / 4, size / 4));
-        let down = LatticePoint::new(x, y, -depth);
-        let direction = if draw.coin() { down } else { -down };
-        let spoke = draw.pick(&ring);
-        // The centre, a point of a spoke (half way, a lattice point of the doubled fan), or near them.
+        let direction = either_sign(draw, LatticePoint::new(x, y, -depth));
+        let end_of_spoke = draw.pick(&ring);
+        // The fan is doubled, so that the middle of a spoke is a lattice point. The ray is at that or at the centre.
         let target = if draw.coin() {
             center * 2
         } else {
-            center + spoke
+            center + end_of_spoke
         };
-        let origin = target - direction * 2;
-        let nudge = draw.pick(&[0, 1, 4, 16]);
-        let origin = nudged(draw, float::<F>(origin), nudge);
-        let case = |i: usize| {
-            let (from, to) = (ring[i], ring[(i + 1) % ring.len()]);
-            // The centre may be any corner: kernels do not treat a, b and c alike.
-            let corners = turned(draw, [center, from, to]);
-            Case::new(origin, float(direction), corners.map(|p| float(p * 2)))
-        };
-        CaseGroup::Group((0..ring.len()).map(case).collect())
+        let exact_origin = target - direction * 2;
+        let ulps = draw.pick(&[0, 1, 4, 16]);
+        let origin = nudged(draw, float::<F>(exact_origin), ulps);
+        let mut triangles = Vec::with_capacity(ring.len());
+        for (i, from) in ring.iter().enumerate() {
+            let to = ring[(i + 1) % ring.len()];
+            triangles.push([center, *from, to].map(|corner| float(corner * 2)));
+        }
+        CaseGroup::Group(turned_cases(draw, origin, float(direction), &triangles))
     }
+}
+
+/// The ends of four to eight spokes, so little above or below the centre that all triangles between them face up.
+fn ring_around(draw: &mut Draw, center: LatticePoint, size: i64) -> Vec<LatticePoint> {
+    let mut ring = Vec::with_capacity(RING.len());
+    for (i, [x, y]) in RING.into_iter().enumerate() {
+        if i % 2 == 0 || draw.coin() {
+            let stretch = size * draw.integer(1, 2);
+            let height = draw.integer(-size / 4, size / 4);
+            ring.push(center + LatticePoint::new(x * stretch, y * stretch, height));
+        }
+    }
+    ring
 }
 
 /// The cases of one ray and several triangles. The first corner of each triangle is drawn, because kernels do not
@@ -159,7 +159,11 @@ pub(super) fn meets_line(truth: &Truth) -> bool {
 
 /// True if a line crosses all triangles from the same side.
 pub(super) fn face_alike(truths: &[Truth]) -> bool {
-    let facing = |truth: &Truth| truth.crossing().map(|crossing| crossing.facing);
-    let first = facing(&truths[0]);
-    first.is_some() && truths.iter().all(|truth| facing(truth) == first)
+    let Some(first) = truths[0].crossing() else {
+        return false;
+    };
+    truths.iter().all(|truth| {
+        let crossing = truth.crossing();
+        crossing.is_some_and(|crossing| crossing.facing == first.facing)
+    })
 }

@@ -35,7 +35,7 @@ impl Recipe for Noise {
         let q = beside(draw, p, noisy);
         let mut first = beside(draw, q, noisy);
         let mut second = beside(draw, q, noisy);
-        // So they are on both sides of the edge.
+        // This puts them on the two sides of the edge.
         let apart = F::from_f64(0.125 + draw.unit());
         first[without_noise] = q[without_noise] + apart;
         second[without_noise] = q[without_noise] - apart;
@@ -46,7 +46,7 @@ impl Recipe for Noise {
         let (mut origin, mut direction) = exact_ray([p, q], away);
         let half = F::from_f64(0.5);
         for &axis in noisy {
-            // Half way from here to the end of the ray at t = 1 is the middle of p and q, exactly.
+            // At t = 1/2 the ray is at p/2 + q/2, the middle, exactly.
             origin[axis] = p[axis] * half;
             direction[axis] = q[axis];
         }
@@ -55,15 +55,13 @@ impl Recipe for Noise {
     }
 }
 
-/// A corner up to 1 from another in each axis, or with noise in some.
+/// A corner up to 1 from another along each axis, but with noise along the noisy ones.
 fn beside<F: Float>(draw: &mut Draw, corner: [F; 3], noisy: &[usize]) -> [F; 3] {
-    let mut beside = corner;
-    for (axis, coordinate) in beside.iter_mut().enumerate() {
+    [0, 1, 2].map(|axis| {
         if noisy.contains(&axis) {
-            *coordinate = draw.with_exponent(EXPONENT);
+            draw.with_exponent(EXPONENT)
         } else {
-            *coordinate = *coordinate + draw.symmetric::<F>();
+            corner[axis] + draw.symmetric::<F>()
         }
-    }
-    beside
+    })
 }

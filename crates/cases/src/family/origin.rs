@@ -2,7 +2,7 @@
 
 use super::boundary::{nudged, toward};
 use super::control::{combination, interior_weights, is_steep, well_shaped};
-use super::integer::{IntegerCase, normal, shuffle, transversal, triangle_with_edge_point};
+use super::integer::{IntegerCase, doubled_triangle, normal, shuffle, transversal};
 use super::ring::corners;
 use super::scene::{any_direction, hit_point, rounded};
 use super::{CaseGroup, Grouping, Promise, Recipe, apply_to_direction};
@@ -33,9 +33,7 @@ impl Recipe for OriginOn {
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let reach = draw.pick(&[64, 4096]);
-        let ([a, b, c], edge_point) = triangle_with_edge_point(draw, reach);
-        // Twice the triangle has a lattice point inside: the middle of c and the edge point.
-        let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p * 2);
+        let ([a, b, c], edge_point) = doubled_triangle(draw, reach);
         let middle = (c + edge_point) / 2;
         let triangle = shuffle(draw, [a, b, c]);
         let origin = draw.pick(&[a, b, c, edge_point, edge_point, middle, middle]);
@@ -63,7 +61,8 @@ impl Recipe for OriginNear {
                 1 => [s, 1.0 - s, 0.0],
                 _ => interior_weights(draw),
             };
-            let point = combination(shuffle(draw, triangle), weights.map(F::from_f64));
+            let corners = shuffle(draw, triangle);
+            let point = combination(corners, weights.map(F::from_f64));
             let ulps = draw.pick(&[0, 1, 2, 16]);
             let origin = nudged(draw, point, ulps);
             let direction = draw.point();
@@ -81,10 +80,11 @@ impl Recipe for SecondaryRay {
         "transversal, from a kernel's own rounded hit point on this triangle, in every direction";
     const GROUPING: Grouping = Grouping::SecondaryRay;
 
-    /// The first ray: its hit point is where the case's ray starts.
+    /// Makes the first ray: its hit point is where the case's ray starts.
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let triangle = well_shaped::<F>(draw);
-        let target = combination(triangle, interior_weights(draw).map(F::from_f64));
+        let weights = interior_weights(draw).map(F::from_f64);
+        let target = combination(triangle, weights);
         let origin = draw.point::<F>();
         CaseGroup::One(Case::new(origin, toward(origin, target), triangle))
     }
@@ -92,10 +92,12 @@ impl Recipe for SecondaryRay {
     fn finish<F: Scalar>(draw: &mut Draw, parameters: &Parameters, made: &mut CaseGroup<F>) {
         let CaseGroup::One(case) = made else { return };
         let triangle = corners(case);
-        let point = find(draw.pick(&FIRST_HIT)).and_then(|kernel| hit_point(draw, case, kernel));
+        let first_kernel = find(draw.pick(&FIRST_HIT));
+        let reported = first_kernel.and_then(|kernel| hit_point(draw, case, kernel));
         // A kernel that misses leaves the middle of the triangle.
-        let middle = || combination(triangle, [F::from_f64(1.0 / 3.0); 3]);
+        let third = F::from_f64(1.0 / 3.0);
+        let origin = reported.unwrap_or_else(|| combination(triangle, [third; 3]));
         let direction = apply_to_direction(parameters, rounded(any_direction(draw)));
-        *case = Case::new(point.unwrap_or_else(middle), direction, triangle);
+        *case = Case::new(origin, direction, triangle);
     }
 }

@@ -31,39 +31,44 @@ impl Recipe for Polygon {
         Promise::Together(|truths| (2..=6).contains(&truths.len()) && face_alike(truths));
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        let corners = draw.integer(4, 8) as usize;
-        let skip = draw.below(8);
-        let outline: Vec<[i64; 2]> = (0..corners).map(|i| OCTAGON[(skip + i) % 8]).collect();
+        let corner_count = draw.integer(4, 8) as usize;
+        let first_corner = draw.below(OCTAGON.len());
         let base = lattice_point(draw, 16);
-        let x = lattice_point(draw, 2);
-        let x = if x == LatticePoint::ZERO {
-            LatticePoint::X
-        } else {
-            x
-        };
+        let mut x = lattice_point(draw, 2);
+        if x == LatticePoint::ZERO {
+            x = LatticePoint::X;
+        }
         let y = independent(draw, x, 2);
-        let at = |[i, j]: [i64; 2]| base + x * i + y * j;
-        let vertices: Vec<LatticePoint> = outline.iter().map(|corner| at(*corner)).collect();
-        let (first, second) = (draw.pick(&vertices), draw.pick(&vertices));
-        // The middle of two vertices (doubled), a vertex, or a lattice point of the plane.
+        let mut vertices = Vec::with_capacity(corner_count);
+        for k in 0..corner_count {
+            let [i, j] = OCTAGON[(first_corner + k) % OCTAGON.len()];
+            vertices.push(base + x * i + y * j);
+        }
+        let one = draw.pick(&vertices);
+        let other = draw.pick(&vertices);
+        // The polygon is doubled, so that the middle of two vertices is a lattice point. The ray is at that, at a vertex, or
+        // at any lattice point of the plane.
         let target = match draw.below(3) {
-            0 => first + second,
-            1 => first * 2,
-            _ => at([draw.integer(-7, 7), draw.integer(-7, 7)]) * 2,
+            0 => one + other,
+            1 => one * 2,
+            _ => {
+                let i = draw.integer(-7, 7);
+                let j = draw.integer(-7, 7);
+                (base + x * i + y * j) * 2
+            }
         };
-        let n = x.cross(y);
-        let direction = transversal(draw, n, 4);
+        let direction = transversal(draw, x.cross(y), 4);
         let origin = target - direction * draw.integer(1, 4);
-        let corner = |i: usize| vertices[i] * 2;
-        let case = |i: usize| {
-            let triangle = [corner(0), corner(i), corner(i + 1)];
-            IntegerCase {
+        let mut cases = Vec::with_capacity(corner_count - 2);
+        for pair in vertices[1..].windows(2) {
+            let triangle = [vertices[0], pair[0], pair[1]];
+            let case = IntegerCase {
                 origin,
                 direction,
-                triangle,
-            }
-            .case()
-        };
-        CaseGroup::Group((1..corners - 1).map(case).collect())
+                triangle: triangle.map(|vertex| vertex * 2),
+            };
+            cases.push(case.case());
+        }
+        CaseGroup::Group(cases)
     }
 }

@@ -114,7 +114,7 @@ impl Recipe for Invalid {
     const KEEPS: Promise = Promise::Truths(|truth| *truth == Truth::Invalid);
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
-        let case = aimed::<F>(draw, &mut interior_weights);
+        let case = aimed::<F>(draw, interior_weights);
         let nan = F::from_f64(f64::NAN);
         let kind = draw.below(8);
         CaseGroup::One(match kind {

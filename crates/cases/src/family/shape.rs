@@ -1,11 +1,11 @@
 //! `sliver`, `degenerate`: needles and caps, and triangles without area.
 
 use super::control::is_steep;
-use super::flat::placed;
+use super::flat::{axes, placed};
 use super::integer::{
     IntegerCase, LatticePoint, independent, lattice_point, normal, shuffle, transversal,
 };
-use super::scene::{RayAxes, any_direction, rounded, wide};
+use super::scene::{RayAxes, any_direction, either_sign, rounded, wide};
 use super::{CaseGroup, Promise, Recipe};
 use crate::arith::{Float, scale_by_power_of_two};
 use crate::case::{Case, Draw};
@@ -39,10 +39,10 @@ struct Outline {
 }
 
 impl Outline {
-    /// About 2^-k thick, k up to `finest`.
+    /// An outline about 2^-k thick, with k up to `finest`.
     fn draw(draw: &mut Draw, finest: i64) -> Outline {
-        let power = -(draw.integer(4, finest) as i32);
-        let thickness = scale_by_power_of_two(1.0 + draw.unit(), power);
+        let k = draw.integer(4, finest) as i32;
+        let thickness = scale_by_power_of_two(1.0 + draw.unit(), -k);
         let long = 0.5 + 0.5 * draw.unit();
         // A needle's third vertex is near an end, a cap's near the middle.
         let third = if draw.coin() {
@@ -59,51 +59,61 @@ impl Outline {
     }
 }
 
-/// On a generic plane, so thick that rounded vertices still have an area.
+/// A sliver on a generic plane, so thick that rounded vertices still have an area.
 fn generic<F: Float>(draw: &mut Draw) -> Case<F> {
     let finest = FINEST.min(i64::from(F::DIGITS) - 4);
     loop {
-        let (frame, corner) = (RayAxes::draw(draw), wide(draw.point::<F>()));
+        let frame = RayAxes::draw(draw);
+        let base = wide(draw.point::<F>());
         let Outline { corners, target } = Outline::draw(draw, finest);
-        let point = |[x, y]: [f64; 2]| corner + frame.flat(x, y);
-        let triangle = corners.map(|corner| rounded(point(corner)));
-        let origin: [F; 3] = rounded(point(target) - any_direction(draw) * (0.25 + draw.unit()));
-        let direction = rounded(point(target) - wide(origin));
+        let triangle = corners.map(|[x, y]| rounded(base + frame.flat(x, y)));
+        let [along, across] = target;
+        let goal = base + frame.flat(along, across);
+        let way = any_direction(draw);
+        let distance = 0.25 + draw.unit();
+        let origin: [F; 3] = rounded(goal - way * distance);
+        let direction = rounded(goal - wide(origin));
         if is_steep(direction, triangle) {
             return Case::new(origin, direction, triangle);
         }
     }
 }
 
-/// In the plane of two axes, where the thin side has its own exponent.
+/// A sliver in the plane of two axes, where the thin side has its own exponent.
 fn level<F: Float>(draw: &mut Draw) -> Case<F> {
-    let axes = draw.pick(&[[0, 1, 2], [1, 2, 0], [2, 0, 1]]);
-    let Outline {
-        corners,
-        target: [along, across],
-    } = Outline::draw(draw, FINEST);
-    let float = |x: f64| F::from_f64(x);
-    let triangle = corners.map(|[x, y]| placed(axes, float(x), float(y), F::zero()));
-    let [dx, dy] = [draw.symmetric::<F>(), draw.symmetric()];
-    let fall = float(0.25 + 0.75 * draw.unit());
-    let fall = if draw.coin() { fall } else { -fall };
-    let origin = placed(axes, float(along) - dx, float(across) - dy, -fall);
-    Case::new(origin, placed(axes, dx, dy, fall), triangle)
+    let axes = axes(draw);
+    let Outline { corners, target } = Outline::draw(draw, FINEST);
+    let triangle = corners.map(|corner| {
+        let [x, y] = corner.map(F::from_f64);
+        placed(axes, x, y, F::zero())
+    });
+    let [along, across] = target.map(F::from_f64);
+    let dx: F = draw.symmetric();
+    let dy: F = draw.symmetric();
+    let steep = F::from_f64(0.25 + 0.75 * draw.unit());
+    let rise = either_sign(draw, steep);
+    let origin = placed(axes, along - dx, across - dy, -rise);
+    let direction = placed(axes, dx, dy, rise);
+    Case::new(origin, direction, triangle)
 }
 
-/// Tilted, in integers: a long edge of 2^m steps, and a third vertex one small step beside it.
+/// A tilted sliver in integers: a long edge of 2^m steps, and a third vertex one small step beside it.
 fn tilted(draw: &mut Draw) -> IntegerCase {
-    let (a, step) = (
-        lattice_point(draw, 8),
-        independent(draw, LatticePoint::Z, 4),
-    );
+    let a = lattice_point(draw, 8);
+    let step = independent(draw, LatticePoint::Z, 4);
     let aside = independent(draw, step, 4);
     let m = draw.integer(4, 16);
-    let along = if draw.coin() { 0 } else { 1 << (m - 1) };
-    let [b, c] = [a + step * (1 << m), a + step * along + aside];
+    let long = 1 << m;
+    let is_needle = draw.coin();
+    let along = if is_needle { 0 } else { long / 2 };
+    let b = a + step * long;
+    let c = a + step * along + aside;
     let triangle = shuffle(draw, [a, b, c]);
-    let target = a + step * draw.integer(0, 1 << m);
-    let target = if draw.coin() { target } else { target + aside };
+    let mut target = a + step * draw.integer(0, long);
+    let is_on_the_edge = draw.coin();
+    if !is_on_the_edge {
+        target += aside;
+    }
     let direction = transversal(draw, normal(triangle), 8);
     IntegerCase {
         origin: target - direction * draw.integer(1, 4),
@@ -121,21 +131,19 @@ impl Recipe for Degenerate {
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         let a = lattice_point(draw, 16);
         let step = lattice_point(draw, 4);
-        let at = |k: i64| -> LatticePoint { a + step * k };
-        let [i, j, k] = [-3, -3, -3].map(|low| draw.integer(low, 3));
-        let triangle = draw.pick(&[[a, a, a], [a, a, at(i)], [a, at(i), at(j)]]);
-        let triangle = shuffle(draw, triangle);
-        let target = at(k);
-        let direction = if step != LatticePoint::ZERO && draw.below(3) == 0 {
+        let [b, c, target] = [(); 3].map(|()| a + step * draw.integer(-3, 3));
+        let corners = draw.pick(&[[a, a, a], [a, a, b], [a, b, c]]);
+        let triangle = shuffle(draw, corners);
+        let has_own_direction = step != LatticePoint::ZERO;
+        let direction = if has_own_direction && draw.below(3) == 0 {
             step
         } else {
-            // Any direction but the segment's own.
-            let other = if step == LatticePoint::ZERO {
-                LatticePoint::Z
-            } else {
+            let avoided = if has_own_direction {
                 step
+            } else {
+                LatticePoint::Z
             };
-            independent(draw, other, 4)
+            independent(draw, avoided, 4)
         };
         let origin = target - direction * draw.integer(-1, 3);
         IntegerCase {

@@ -3,7 +3,7 @@
 use super::boundary::toward;
 use super::control::{aimed, interior_weights, is_steep};
 use super::integer::{
-    LatticePoint, float, lattice_point, normal, shuffle, transversal, triangle_with_edge_point,
+    LatticePoint, doubled_triangle, float, lattice_point, normal, shuffle, transversal,
 };
 use super::{CaseGroup, Recipe, apply};
 use crate::arith::Float;
@@ -14,17 +14,9 @@ pub(super) struct Tiny;
 pub(super) struct Huge;
 pub(super) struct Far;
 
-/// Interior, boundary and outside, scaled; the direction is scaled in half of the cases.
+/// A case of a scale, at the interior, at the boundary or outside; the direction is scaled in half of the cases.
 fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> CaseGroup<F> {
-    let mut case = aimed::<F>(draw, &mut |draw| {
-        let s = draw.unit();
-        let weights = match draw.below(4) {
-            0 => [s, 1.0 - s, 0.0],
-            1 => [-s, 1.0, s],
-            _ => interior_weights(draw),
-        };
-        shuffle(draw, weights)
-    });
+    let mut case = aimed::<F>(draw, any_weights);
     let parameters = Parameters {
         scale,
         scale_direction: draw.coin(),
@@ -32,6 +24,17 @@ fn scaled<F: Float>(draw: &mut Draw, scale: i32) -> CaseGroup<F> {
     };
     apply(&parameters, &mut case);
     CaseGroup::One(case)
+}
+
+/// Weights of a point inside a triangle, on an edge or outside.
+fn any_weights(draw: &mut Draw) -> [f64; 3] {
+    let s = draw.unit();
+    let weights = match draw.below(4) {
+        0 => [s, 1.0 - s, 0.0],
+        1 => [-s, 1.0, s],
+        _ => interior_weights(draw),
+    };
+    shuffle(draw, weights)
 }
 
 impl Recipe for Tiny {
@@ -62,24 +65,24 @@ impl Recipe for Far {
 
     fn make<F: Scalar>(draw: &mut Draw, _: u64) -> CaseGroup<F> {
         // All on the integer grid of a large offset, which is exact below 2^DIGITS.
-        let ([a, b, c], edge_point) = triangle_with_edge_point(draw, 64);
-        let [a, b, c, edge_point] = [a, b, c, edge_point].map(|p| p * 2);
+        let (corners, edge_point) = doubled_triangle(draw, 64);
+        let [.., c] = corners;
         let middle = (c + edge_point) / 2;
         let target = draw.pick(&[middle, edge_point, c, c + LatticePoint::X]);
-        let [a, b, c] = shuffle(draw, [a, b, c]);
+        let corners = shuffle(draw, corners);
         let exponent = draw.integer(10, i64::from(F::DIGITS) - 2);
         let base = lattice_point(draw, 1 << exponent);
-        let direction = transversal(draw, normal([a, b, c]), 32);
+        let direction = transversal(draw, normal(corners), 32);
         let origin = target - direction * draw.integer(1, 8);
-        let [a, b, c, goal] = [a, b, c, target].map(|p| float(p + base));
+        let triangle = corners.map(|corner| float(corner + base));
         // Half of the rays come from the far side of the coordinate system.
         if draw.coin() {
-            let start = float(base).map(|x: F| -x);
-            let direction = toward(start, goal);
-            if is_steep(direction, [a, b, c]) {
-                return CaseGroup::One(Case::new(start, direction, [a, b, c]));
+            let opposite = float(base).map(|x: F| -x);
+            let way = toward(opposite, float(target + base));
+            if is_steep(way, triangle) {
+                return CaseGroup::One(Case::new(opposite, way, triangle));
             }
         }
-        CaseGroup::One(Case::new(float(origin + base), float(direction), [a, b, c]))
+        CaseGroup::One(Case::new(float(origin + base), float(direction), triangle))
     }
 }

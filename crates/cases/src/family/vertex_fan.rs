@@ -2,7 +2,7 @@
 //!
 //! A spoke is an edge of two triangles, and a line through the vertex meets it: the edge's value is 0 without rounding, and
 //! of either sign with it. A kernel that computes the value of each spoke by itself finds it of one sign in all triangles
-//! of some fans, and reports none of them. On lattice points, as of `fan`, it finds 0.
+//! of some fans, and reports none of them. On the lattice points of `fan` it finds 0.
 
 use super::control::is_steep;
 use super::exact_ray::exact_ray;

@@ -5,7 +5,10 @@
 use super::topology::Topology;
 use crate::arith::Float;
 use crate::case::{Case, CaseId, Draw, Parameters, Ray, Triangle};
-use crate::family::{self, Grouping, draw_interval, exact_ray, nudged, toward, unit_vector};
+use crate::family::{
+    self, Grouping, draw_interval, either_sign, exact_ray, nudged, rounded, toward, unit_vector,
+    wide,
+};
 use crate::files::mesh::Mesh;
 use glam::DVec3;
 use std::slice;
@@ -35,7 +38,7 @@ impl AimedPart {
     }
 }
 
-/// How a ray is aimed: which of them follows from its number at the target.
+/// How a ray is aimed, which follows from its number at the target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Aim {
     /// True if the target is to lie on its line exactly.
@@ -120,14 +123,18 @@ impl<'m> Targets<'m> {
 
     /// Adds the cases of an index: one ray with its interval, and each triangle around its target.
     pub fn make<F: Float>(&self, part: AimedPart, index: u64, cases: &mut Vec<Case<F>>) {
-        let faces = self.faces(part, self.place(part, index).0);
+        let (target, _) = self.place(part, index);
+        let (first_face, other_faces) = self.faces(part, target).split_first().expect("a face");
         let mut draw = Draw::new(part.name(), self.seed, index);
         let (origin, direction) = self.ray(part, index, &mut draw);
-        let mut first = Case::new(origin, direction, self.mesh.vertices(faces[0] as usize));
+        let triangle = self.mesh.vertices(*first_face as usize);
+        let mut first = Case::new(origin, direction, triangle);
         family::apply(self.parameters, &mut first);
         draw_interval(part.grouping(), &mut draw, slice::from_mut(&mut first));
         cases.push(first);
-        cases.extend(faces[1..].iter().map(|face| self.case(&first.ray, *face)));
+        for face in other_faces {
+            cases.push(self.case(&first.ray, *face));
+        }
     }
 
     /// Adds the ray of an index with the triangles that share a point with one around its target; false if
@@ -138,15 +145,18 @@ impl<'m> Targets<'m> {
         ray: &Ray<F::Vector>,
         cases: &mut Vec<Case<F>>,
     ) -> bool {
-        let group = self.faces(part, self.place(part, index).0);
-        let faces = self.topology.around(&self.mesh.triangles, group);
-        faces.is_some_and(|faces| {
-            cases.extend(faces.iter().map(|face| self.case(ray, *face)));
-            true
-        })
+        let (target, _) = self.place(part, index);
+        let group = self.faces(part, target);
+        let Some(faces) = self.topology.around(&self.mesh.triangles, group) else {
+            return false;
+        };
+        for face in faces {
+            cases.push(self.case(ray, face));
+        }
+        true
     }
 
-    /// A face, put through the parameters, with a ray that was.
+    /// A face, put through the parameters, with a ray that has been through them.
     fn case<F: Float>(&self, ray: &Ray<F::Vector>, face: u32) -> Case<F> {
         let [a, b, c] = self.mesh.vertices(face as usize).map(F::Vector::from);
         let mut case = Case {
@@ -160,11 +170,11 @@ impl<'m> Targets<'m> {
     /// The ray of an index, before the parameters.
     fn ray<F: Float>(&self, part: AimedPart, index: u64, draw: &mut Draw) -> ([F; 3], [F; 3]) {
         let (target, number) = self.place(part, index);
-        let faces = self.faces(part, target);
+        let face = draw.pick(self.faces(part, target));
+        let triangle = self.mesh.vertices(face as usize);
         let points = self.points(part, target);
         let ends = [points[0], points[points.len() - 1]].map(|point| self.mesh.position(point));
-        let about = self.mesh.vertices(faces[draw.below(faces.len())] as usize);
-        self.ray_at(draw, Aim::of(number), ends, about)
+        self.ray_at(draw, Aim::of(number), ends, triangle)
     }
 
     /// A ray at the segment between two points (or at one point, given twice), which belongs to a
@@ -176,13 +186,10 @@ impl<'m> Targets<'m> {
         ends: [[F; 3]; 2],
         triangle: [[F; 3]; 3],
     ) -> ([F; 3], [F; 3]) {
-        let wide = triangle.map(|corner| DVec3::from(corner.map(F::to_f64)));
-        let size = (wide[1] - wide[0])
-            .abs()
-            .max((wide[2] - wide[0]).abs())
-            .max_element();
+        let [a, b, c] = triangle.map(wide);
+        let size = (b - a).abs().max((c - a).abs()).max_element();
         let way = if aim.grazing {
-            grazing_direction(draw, wide)
+            grazing_direction(draw, [a, b, c])
         } else {
             any_way(draw)
         };
@@ -191,16 +198,17 @@ impl<'m> Targets<'m> {
         } else {
             size * (1.0 + 7.0 * draw.unit())
         };
-        let away = (way * distance).to_array();
+        let away = way * distance;
         if aim.exact {
-            return exact_ray(ends, away);
+            return exact_ray(ends, away.to_array());
         }
-        let [p, q] = ends.map(|end| end.map(F::to_f64));
+        let [p, q] = ends.map(wide);
         let s = 0.0625 + 0.875 * draw.unit();
-        let target: [F; 3] = std::array::from_fn(|i| F::from_f64(p[i] + (q[i] - p[i]) * s));
-        let origin: [F; 3] = std::array::from_fn(|i| F::from_f64(target[i].to_f64() - away[i]));
+        let target: [F; 3] = rounded(p + (q - p) * s);
+        let origin = rounded(wide(target) - away);
         let ulps = draw.pick(&[0, 0, 1, 4]);
-        (origin, nudged(draw, toward(origin, target), ulps))
+        let direction = nudged(draw, toward(origin, target), ulps);
+        (origin, direction)
     }
 }
 
@@ -212,15 +220,16 @@ fn any_way(draw: &mut Draw) -> DVec3 {
 /// A vector of about unit length, 2^-1 to 2^-12 off the plane of a triangle.
 fn grazing_direction(draw: &mut Draw, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let any = any_way(draw);
-    let tilt = 1.0 / (1u64 << draw.integer(1, 12)) as f64;
-    let tilt = if draw.coin() { tilt } else { -tilt };
+    let sine = 1.0 / (1u64 << draw.integer(1, 12)) as f64;
+    let tilt = either_sign(draw, sine);
     // Edges of length about one, so that products neither overflow nor underflow.
-    let edge = |to: DVec3| (to - a) / (to - a).abs().max_element();
-    let normal = edge(b).cross(edge(c));
-    let length = normal.length();
-    if !(length > 0.0 && length.is_finite()) {
+    let [ab, ac] = [b - a, c - a].map(|edge| edge / edge.abs().max_element());
+    let cross = ab.cross(ac);
+    let length = cross.length();
+    let has_area = 0.0 < length && length.is_finite();
+    if !has_area {
         return any;
     }
-    let normal = normal / length;
+    let normal = cross / length;
     any - any.dot(normal) * normal + tilt * normal
 }

@@ -1,10 +1,12 @@
 //! Finds what a mesh is in a scalar: welds its vertices and sorts faces, edges and vertices into their kinds.
 
 use super::fans::{Fans, VertexKind, fan_of};
-use super::topology::{EdgeKind, FaceKind, Incidence, Noted, SharedEdge, Topology};
+use super::topology::{EdgeKind, FaceKind, Incidence, SharedEdge, Topology};
 use crate::arith::Float;
 use crate::engine;
+use crate::family::wide;
 use crate::files::mesh::Mesh;
+use glam::DVec3;
 use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;
 
@@ -17,28 +19,43 @@ impl Topology {
         });
         let mut kinds = engine::map(&corners, |face| kind_alone::<F>(mesh, *face));
         let duplicated_places = mark_duplicates(&corners, &mut kinds);
-        let mut faces: [Noted; 5] = Default::default();
-        for ((face, kind), corners) in (0..).zip(&kinds).zip(&corners) {
-            faces[*kind as usize].note(face, corners);
-        }
-        let (edges, shared) = edges(&corners, &kinds);
         let takes_part = |face: usize| kinds[face] != FaceKind::Collapsed;
         let incidence = Incidence::of(points.len(), &corners, takes_part);
-        let extent = extent_of::<F>(mesh, &shared);
         let mut topology = Topology {
             points,
             used_points: 0,
-            faces,
+            faces: Default::default(),
             duplicated_places,
-            edges,
+            edges: Default::default(),
             vertices: Default::default(),
-            shared,
+            shared: Vec::new(),
             fans: Fans::default(),
             incidence,
-            extent,
+            extent: 0.0,
         };
+        for ((face, corners), kind) in (0..).zip(&corners).zip(&kinds) {
+            topology.faces[*kind as usize].note(face, corners);
+        }
+        topology.add_edges(&corners, &kinds);
         topology.add_vertices(&corners, &kinds);
+        topology.extent = extent_of::<F>(mesh, &topology.shared);
         topology
+    }
+
+    /// Sorts the edges into kinds and keeps the shared ones.
+    fn add_edges(&mut self, corners: &[[u32; 3]], kinds: &[FaceKind]) {
+        let half_edges = half_edges(corners, kinds);
+        self.shared.reserve(half_edges.len() / 2);
+        for edge in half_edges.chunk_by(|one, other| one.ends == other.ends) {
+            let HalfEdge { ends, face, .. } = edge[0];
+            let kind = edge_kind(edge, kinds);
+            if kind == EdgeKind::Shared {
+                let faces = [face, edge[1].face];
+                self.shared.push(SharedEdge { ends, faces });
+            }
+            self.edges[kind as usize].note(face, &ends);
+        }
+        self.shared.shrink_to_fit();
     }
 
     /// Sorts the vertices into kinds and keeps the closed fans.
@@ -50,18 +67,17 @@ impl Topology {
                 continue;
             };
             self.used_points += 1;
-            let sound = around
-                .iter()
-                .all(|face| kinds[*face as usize] == FaceKind::Sound);
-            let kind = if sound {
-                fan_of(point as u32, around, corners, &mut arcs)
+            let is_sound = |face: &u32| kinds[*face as usize] == FaceKind::Sound;
+            let vertex = point as u32;
+            let kind = if around.iter().all(is_sound) {
+                fan_of(vertex, around, corners, &mut arcs)
             } else {
                 VertexKind::Irregular
             };
-            self.vertices[kind as usize].note(*first, &[point as u32]);
+            self.vertices[kind as usize].note(*first, &[vertex]);
             if kind == VertexKind::Closed {
-                self.fans
-                    .push(point as u32, arcs.iter().map(|arc| arc.face));
+                let faces = arcs.iter().map(|arc| arc.face);
+                self.fans.push(vertex, faces);
             }
         }
     }
@@ -69,28 +85,33 @@ impl Topology {
 
 /// The largest extent of some edges along an axis.
 fn extent_of<F: Float>(mesh: &Mesh, edges: &[SharedEdge]) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for end in edges.iter().flat_map(|edge| edge.ends) {
-        let position = mesh.position::<F>(end).map(F::to_f64);
-        low = std::array::from_fn(|i| low[i].min(position[i]));
-        high = std::array::from_fn(|i| high[i].max(position[i]));
+    if edges.is_empty() {
+        return 0.0;
     }
-    (0..3).fold(0.0, |m: f64, i| m.max(high[i] - low[i]))
+    let mut low = DVec3::INFINITY;
+    let mut high = DVec3::NEG_INFINITY;
+    for edge in edges {
+        for end in edge.ends {
+            let position = wide(mesh.position::<F>(end));
+            low = low.min(position);
+            high = high.max(position);
+        }
+    }
+    (high - low).max_element()
 }
 
 /// For each vertex the first with equal coordinates.
 fn welded<F: Float>(mesh: &Mesh) -> Vec<u32> {
     let count = mesh.positions_f64.len();
     let mut first: HashMap<[u64; 3], u32> = HashMap::with_capacity(count);
-    (0..count as u32)
-        .map(|vertex| {
-            // Adding +0 makes +0 of -0 and leaves every other number alone.
-            let key = mesh
-                .position::<F>(vertex)
-                .map(|x| (x.to_f64() + 0.0).to_bits());
-            *first.entry(key).or_insert(vertex)
-        })
-        .collect()
+    let mut points = Vec::with_capacity(count);
+    for vertex in 0..count as u32 {
+        let position = mesh.position::<F>(vertex).map(F::to_f64);
+        // Adding +0 makes +0 of -0 and leaves every other number alone.
+        let key = position.map(|x| (x + 0.0).to_bits());
+        points.push(*first.entry(key).or_insert(vertex));
+    }
+    points
 }
 
 /// The kind of a face without a look at the others.
@@ -111,64 +132,74 @@ fn kind_alone<F: Float>(mesh: &Mesh, face: [u32; 3]) -> FaceKind {
 
 /// Marks the sound faces that have the same three points; returns in how many places.
 fn mark_duplicates(corners: &[[u32; 3]], kinds: &mut [FaceKind]) -> u64 {
-    let mut faces: Vec<([u32; 3], u32)> = (0..)
-        .zip(corners)
-        .zip(kinds.iter())
-        .filter(|(_, kind)| **kind == FaceKind::Sound)
-        .map(|((face, corners), _)| {
+    let mut placed = Vec::new();
+    for ((face, corners), kind) in (0..).zip(corners).zip(kinds.iter()) {
+        if *kind == FaceKind::Sound {
             let mut points = *corners;
             points.sort_unstable();
-            (points, face)
-        })
-        .collect();
-    faces.par_sort_unstable();
+            placed.push(PlacedFace { points, face });
+        }
+    }
+    placed.par_sort_unstable();
     let mut places = 0;
-    for same in faces
-        .chunk_by(|a, b| a.0 == b.0)
-        .filter(|same| same.len() > 1)
-    {
+    for at_one_place in placed.chunk_by(|one, other| one.points == other.points) {
+        if at_one_place.len() == 1 {
+            continue;
+        }
         places += 1;
-        same.iter()
-            .for_each(|(_, face)| kinds[*face as usize] = FaceKind::Duplicated);
+        for PlacedFace { face, .. } in at_one_place {
+            kinds[*face as usize] = FaceKind::Duplicated;
+        }
     }
     places
 }
 
-/// Counts the edges of each kind, and keeps the shared ones.
-fn edges(corners: &[[u32; 3]], kinds: &[FaceKind]) -> ([Noted; 5], Vec<SharedEdge>) {
-    // The two points, smaller first, and the face with whether it runs from the smaller to the larger.
-    let mut halves: Vec<([u32; 2], (u32, bool))> = (0..)
-        .zip(corners)
-        .zip(kinds)
-        .filter(|(_, kind)| **kind != FaceKind::Collapsed)
-        .flat_map(|((face, [a, b, c]), _)| {
-            [(*a, *b), (*b, *c), (*c, *a)]
-                .map(|(from, to)| ([from.min(to), from.max(to)], (face, from < to)))
-        })
-        .collect();
-    halves.par_sort_unstable();
-    let mut counts: [Noted; 5] = Default::default();
-    let mut shared = Vec::with_capacity(halves.len() / 2);
-    for edge in halves.chunk_by(|a, b| a.0 == b.0) {
-        let (ends, (face, _)) = edge[0];
-        let sound = edge
-            .iter()
-            .all(|(_, (face, _))| kinds[*face as usize] == FaceKind::Sound);
-        let kind = match edge {
-            _ if !sound => EdgeKind::Unsound,
-            [_] => EdgeKind::Open,
-            [(_, (_, one)), (_, (_, other))] if one == other => EdgeKind::Inconsistent,
-            [_, (_, (other, _))] => {
-                shared.push(SharedEdge {
-                    ends,
-                    faces: [face, *other],
-                });
-                EdgeKind::Shared
-            }
-            _ => EdgeKind::NonManifold,
-        };
-        counts[kind as usize].note(face, &ends);
+/// A face and its points, sorted.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct PlacedFace {
+    points: [u32; 3],
+    face: u32,
+}
+
+/// An edge as one face runs through it.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct HalfEdge {
+    /// The smaller point first.
+    ends: [u32; 2],
+    face: u32,
+    /// True if the face runs from the smaller point to the larger one.
+    is_upward: bool,
+}
+
+/// All edges of the faces that are not collapsed, sorted by their points.
+fn half_edges(corners: &[[u32; 3]], kinds: &[FaceKind]) -> Vec<HalfEdge> {
+    let mut half_edges = Vec::with_capacity(3 * corners.len());
+    for ((face, [a, b, c]), kind) in (0..).zip(corners).zip(kinds) {
+        if *kind == FaceKind::Collapsed {
+            continue;
+        }
+        for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
+            half_edges.push(HalfEdge {
+                ends: [from.min(to), from.max(to)],
+                face,
+                is_upward: from < to,
+            });
+        }
     }
-    shared.shrink_to_fit();
-    (counts, shared)
+    half_edges.par_sort_unstable();
+    half_edges
+}
+
+/// The kind of an edge by all faces on it.
+fn edge_kind(edge: &[HalfEdge], kinds: &[FaceKind]) -> EdgeKind {
+    let is_sound = |half_edge: &HalfEdge| kinds[half_edge.face as usize] == FaceKind::Sound;
+    if !edge.iter().all(is_sound) {
+        return EdgeKind::Unsound;
+    }
+    match edge {
+        [_] => EdgeKind::Open,
+        [one, other] if one.is_upward == other.is_upward => EdgeKind::Inconsistent,
+        [_, _] => EdgeKind::Shared,
+        _ => EdgeKind::NonManifold,
+    }
 }

@@ -70,12 +70,11 @@ impl Errors {
     ) -> Errors {
         let measure = Measure::new(case, crossing);
         measure
-            .errors(gives, verdict, Bounded::new, Bounded::within)
+            .errors(gives, verdict, Bounded::within)
             .unwrap_or_else(|| {
                 let float = |x: &Exact, _| Some(x.approximate());
-                measure
-                    .errors(gives, verdict, Exact::from_f64, float)
-                    .expect("always a number")
+                let exactly = measure.errors(gives, verdict, float);
+                exactly.expect("always a number")
             })
     }
 }
@@ -120,11 +119,9 @@ impl<'a, F: Float> Measure<'a, F> {
         &self,
         gives: Gives,
         verdict: &Verdict<F>,
-        number: impl Fn(f64) -> R,
         float: impl Fn(&R, f64) -> Option<f64>,
     ) -> Option<Errors> {
-        let lift = |x: F| number(x.to_f64());
-        let (ray, triangle) = self.case.lift(lift);
+        let (ray, triangle) = self.case.lift(|x| R::number(x.to_f64()));
         let exact = values(&ray, &triangle);
         let error_of = |which: usize, found: F| -> Option<f64> {
             if which == 0 && rounds_to_infinity(self.case, &self.truth, found) {
@@ -136,8 +133,8 @@ impl<'a, F: Float> Measure<'a, F> {
             if self.zeros[which] {
                 return Some(found.to_f64().abs() / self.units[which]);
             }
-            let ulp = self.ulp_at(&exact[which], &number, &float)?;
-            let off = lift(found) - &exact[which];
+            let ulp = self.ulp_at(&exact[which], &float)?;
+            let off = R::number(found.to_f64()) - &exact[which];
             Some(float(&off, ulp * 1e-6)?.abs() / ulp)
         };
         let uv = |found: &Verdict<F>| Some(error_of(1, found.u)?.max(error_of(2, found.v)?));
@@ -149,7 +146,7 @@ impl<'a, F: Float> Measure<'a, F> {
             },
             uv: if gives.uv { Some(uv(verdict)?) } else { None },
             point: if gives.t {
-                Some(self.point(verdict.t, &ray, &exact[0], lift, float)?)
+                Some(self.point(verdict.t, &ray, &exact[0], float)?)
             } else {
                 None
             },
@@ -158,12 +155,7 @@ impl<'a, F: Float> Measure<'a, F> {
 
     /// The ulp of the float nearest to a number. Near a power of two, where it doubles, a number that is known to
     /// a millionth of itself is not known well enough.
-    fn ulp_at<R: Real>(
-        &self,
-        exact: &R,
-        number: &impl Fn(f64) -> R,
-        float: &impl Fn(&R, f64) -> Option<f64>,
-    ) -> Option<f64> {
+    fn ulp_at<R: Real>(&self, exact: &R, float: &impl Fn(&R, f64) -> Option<f64>) -> Option<f64> {
         let about = float(exact, 0.0)?;
         let [one, other] = [1.0 - 2e-6, 1.0 + 2e-6].map(|x| nearest::<F>(about * x));
         let ulps = [one, other].map(|x| x.ulp().to_f64());
@@ -174,7 +166,7 @@ impl<'a, F: Float> Measure<'a, F> {
         // The power of two from which on, and half an ulp before which, the ulp is the larger one.
         let power = high / F::EPSILON.to_f64();
         let sign = if about < 0.0 { -1.0 } else { 1.0 };
-        let beyond = sign * float(&(number(sign * power) * -R::one() + exact), 0.0)?;
+        let beyond = sign * float(&(R::number(sign * power) * -R::one() + exact), 0.0)?;
         Some(if beyond < -low / 2.0 { low } else { high })
     }
 
@@ -183,7 +175,6 @@ impl<'a, F: Float> Measure<'a, F> {
         t: F,
         ray: &Ray<Triple<R>>,
         exact_t: &R,
-        lift: impl Fn(F) -> R,
         float: impl Fn(&R, f64) -> Option<f64>,
     ) -> Option<f64> {
         let [o, d, ..] = self.case.vectors();
@@ -196,7 +187,7 @@ impl<'a, F: Float> Measure<'a, F> {
             if !found.is_finite() {
                 return Some(f64::INFINITY);
             }
-            let off = lift(found) - &exact.at(axis);
+            let off = R::number(found.to_f64()) - &exact.at(axis);
             worst = worst.max(float(&off, ulp * 1e-6)?.abs() / ulp);
         }
         Some(worst)

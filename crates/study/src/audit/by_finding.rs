@@ -15,11 +15,9 @@ fn place(class: Class, finding: Finding) -> usize {
 
 impl<T> Default for ByFinding<T> {
     fn default() -> ByFinding<T> {
-        ByFinding(
-            std::iter::repeat_with(|| None)
-                .take(Class::COUNT * FINDINGS)
-                .collect(),
-        )
+        let mut slots = Vec::new();
+        slots.resize_with(Class::COUNT * FINDINGS, || None);
+        ByFinding(slots)
     }
 }
 
@@ -48,11 +46,11 @@ impl<T> ByFinding<T> {
     /// All that is kept, by class, then by finding.
     pub fn iter(&self) -> impl Iterator<Item = ((Class, Finding), &T)> {
         let keys = Class::all().flat_map(|class| Finding::ALL.map(|finding| (class, finding)));
-        keys.zip(&self.0)
-            .filter_map(|(key, kept)| Some((key, kept.as_deref()?)))
+        let keyed = keys.zip(&self.0);
+        keyed.filter_map(|(key, slot)| Some((key, slot.as_deref()?)))
     }
 
-    /// The same to be changed, without the keys.
+    /// All that is kept, to be changed, without the keys.
     pub fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.0.iter_mut().filter_map(Option::as_deref_mut)
     }
@@ -66,9 +64,10 @@ impl<T: Serialize> Serialize for ByFinding<T> {
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByFinding<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<ByFinding<T>, D::Error> {
+        let kept: Vec<((Class, Finding), T)> = Vec::deserialize(from)?;
         let mut all = ByFinding::default();
-        for ((class, finding), kept) in Vec::<((Class, Finding), T)>::deserialize(from)? {
-            all.0[place(class, finding)] = Some(Box::new(kept));
+        for ((class, finding), value) in kept {
+            all.0[place(class, finding)] = Some(Box::new(value));
         }
         Ok(all)
     }

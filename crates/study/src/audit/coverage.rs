@@ -40,9 +40,23 @@ struct CaseShape {
 const NEAR: f64 = 1.0 / 1024.0;
 
 macro_rules! aspects {
-    ($($kind:literal: $($name:literal => $is_met:expr),+;)+) => {
+    (
+        $($kind:literal: $($name:literal => $is_met:expr),+;)+
+        intervals:
+        $($interval:literal: $start:ident, $is_finite:literal => $($place:ident),+;)+
+        others:
+        $($other_kind:literal: $($other:literal => $is_other_met:expr),+;)+
+    ) => {
         /// Every aspect, those of a kind together.
-        pub const ASPECTS: &[Aspect] = &[$($(Aspect { kind: $kind, name: $name, is_met: $is_met },)+)+];
+        pub const ASPECTS: &[Aspect] = &[
+            $($(Aspect { kind: $kind, name: $name, is_met: $is_met },)+)+
+            $($(Aspect {
+                kind: $interval,
+                name: place_name(Place::$place),
+                is_met: |s| s.is_on($start, $is_finite, Place::$place),
+            },)+)+
+            $($(Aspect { kind: $other_kind, name: $other, is_met: $is_other_met },)+)+
+        ];
     };
 }
 
@@ -53,7 +67,7 @@ aspects! {
         "ab" => |s| s.is_edge(2), "bc" => |s| s.is_edge(0), "ca" => |s| s.is_edge(1);
     "side":
         "front" => |s| s.faces(Facing::Front), "back" => |s| s.faces(Facing::Back),
-        "neither" => |s| s.truth.crossing().is_none();
+        "neither" => |s| s.crossing().is_none();
     "plane":
         "generic" => |s| zeros(s.normal) == 0 && s.has_area(),
         "holds an axis" => |s| zeros(s.normal) == 1,
@@ -75,41 +89,29 @@ aspects! {
         "before" => |s| s.is_at(Place::Before), "at the start" => |s| s.is_at(Place::AtMin),
         "within" => |s| s.is_at(Place::Within), "at the end" => |s| s.is_at(Place::AtMax),
         "beyond" => |s| s.is_at(Place::Beyond);
-    "t in [-, inf]":
-        "before" => |s| s.is_on(Less, false, Place::Before),
-        "at the start" => |s| s.is_on(Less, false, Place::AtMin),
-        "within" => |s| s.is_on(Less, false, Place::Within);
-    "t in [-, end]":
-        "before" => |s| s.is_on(Less, true, Place::Before),
-        "at the start" => |s| s.is_on(Less, true, Place::AtMin),
-        "within" => |s| s.is_on(Less, true, Place::Within),
-        "at the end" => |s| s.is_on(Less, true, Place::AtMax),
-        "beyond" => |s| s.is_on(Less, true, Place::Beyond);
-    "t in [0, inf]":
-        "before" => |s| s.is_on(Equal, false, Place::Before),
-        "at the start" => |s| s.is_on(Equal, false, Place::AtMin),
-        "within" => |s| s.is_on(Equal, false, Place::Within);
-    "t in [0, end]":
-        "before" => |s| s.is_on(Equal, true, Place::Before),
-        "at the start" => |s| s.is_on(Equal, true, Place::AtMin),
-        "within" => |s| s.is_on(Equal, true, Place::Within),
-        "at the end" => |s| s.is_on(Equal, true, Place::AtMax),
-        "beyond" => |s| s.is_on(Equal, true, Place::Beyond);
-    "t in [+, inf]":
-        "before" => |s| s.is_on(Greater, false, Place::Before),
-        "at the start" => |s| s.is_on(Greater, false, Place::AtMin),
-        "within" => |s| s.is_on(Greater, false, Place::Within);
-    "t in [+, end]":
-        "before" => |s| s.is_on(Greater, true, Place::Before),
-        "at the start" => |s| s.is_on(Greater, true, Place::AtMin),
-        "within" => |s| s.is_on(Greater, true, Place::Within),
-        "at the end" => |s| s.is_on(Greater, true, Place::AtMax),
-        "beyond" => |s| s.is_on(Greater, true, Place::Beyond);
+    intervals:
+    "t in [-, inf]": Less, false => Before, AtMin, Within;
+    "t in [-, end]": Less, true => Before, AtMin, Within, AtMax, Beyond;
+    "t in [0, inf]": Equal, false => Before, AtMin, Within;
+    "t in [0, end]": Equal, true => Before, AtMin, Within, AtMax, Beyond;
+    "t in [+, inf]": Greater, false => Before, AtMin, Within;
+    "t in [+, end]": Greater, true => Before, AtMin, Within, AtMax, Beyond;
+    others:
     "from 0":
         "near" => |s| s.offset() < 16.0, "far" => |s| 1000.0 < s.offset();
     "signs":
         "negative" => |s| s.numbers().any(|x| x < 0.0),
         "-0" => |s| s.numbers().any(|x| x == 0.0 && x.is_sign_negative());
+}
+
+const fn place_name(place: Place) -> &'static str {
+    match place {
+        Place::Before => "before",
+        Place::AtMin => "at the start",
+        Place::Within => "within",
+        Place::AtMax => "at the end",
+        Place::Beyond => "beyond",
+    }
 }
 
 /// 2^20.
@@ -135,28 +137,24 @@ fn length(v: DVec3) -> f64 {
 
 impl CaseShape {
     fn of<F: Float>(case: &Case<F>) -> CaseShape {
-        let Case {
-            ray:
-                Ray {
-                    origin,
-                    direction,
-                    t_min,
-                    t_max,
-                },
-            triangle,
-        } = case.widen();
+        let Case { ray, triangle } = case.widen();
+        let Ray {
+            origin,
+            direction,
+            t_min,
+            t_max,
+        } = ray;
         let [a, b, c] = triangle.vertices();
-        let edge = [b - a, c - b, a - c]
-            .map(length)
-            .into_iter()
-            .fold(0.0, f64::max);
+        let edges = [b - a, c - b, a - c].map(length);
+        let edge = edges.into_iter().fold(0.0, f64::max);
         // Near 1, so that products of extreme numbers stay numbers.
         let [ab, ac, start] = [b - a, c - a, a - origin].map(|v| v / edge);
         let unit = direction / length(direction);
         let normal = ab.cross(ac);
         let determinant = unit.dot(normal);
-        let of = |row: DVec3| row.dot(start) / determinant;
-        let (u, v) = (of(unit.cross(ac)), of(ab.cross(unit)));
+        let t = normal.dot(start) / determinant;
+        let u = unit.cross(ac).dot(start) / determinant;
+        let v = ab.cross(unit).dot(start) / determinant;
         CaseShape {
             truth: oracle::truth(case),
             weights: [1.0 - u - v, u, v],
@@ -165,7 +163,7 @@ impl CaseShape {
             points: [a, b, c],
             normal,
             edge,
-            distance: of(normal).abs(),
+            distance: t.abs(),
             sine: determinant.abs() / length(normal),
             t_min,
             t_max,
@@ -176,27 +174,36 @@ impl CaseShape {
         self.truth.crossing()
     }
 
+    /// True if the line meets the plane near a corner: its weight is near 1, and the others are near 0.
     fn is_corner(&self, which: usize) -> bool {
-        self.crossing().is_some() && (self.weights[which] - 1.0).abs() < NEAR && {
-            (0..3).all(|i| i == which || self.weights[i].abs() < NEAR)
-        }
+        let is_near = |i: usize| {
+            let at_corner = if i == which { 1.0 } else { 0.0 };
+            (self.weights[i] - at_corner).abs() < NEAR
+        };
+        self.crossing().is_some() && (0..3).all(is_near)
     }
 
-    /// Near the edge across from a corner, and not near another corner.
+    /// True if the line meets the plane near the edge across from a corner, and not near another corner.
     fn is_edge(&self, across: usize) -> bool {
-        let inside = |i: usize| (NEAR..1.0 - NEAR).contains(&self.weights[i]);
-        let others = (0..3).filter(|i| *i != across);
-        self.crossing().is_some() && self.weights[across].abs() < NEAR && others.clone().all(inside)
+        let is_near = |i: usize| {
+            let weight = self.weights[i];
+            if i == across {
+                weight.abs() < NEAR
+            } else {
+                (NEAR..1.0 - NEAR).contains(&weight)
+            }
+        };
+        self.crossing().is_some() && (0..3).all(is_near)
     }
 
     fn faces(&self, facing: Facing) -> bool {
-        self.crossing()
-            .is_some_and(|crossing| crossing.facing == facing)
+        let crossing = self.crossing();
+        crossing.is_some_and(|crossing| crossing.facing == facing)
     }
 
     fn is_at(&self, place: Place) -> bool {
-        self.crossing()
-            .is_some_and(|crossing| crossing.place == place)
+        let crossing = self.crossing();
+        crossing.is_some_and(|crossing| crossing.place == place)
     }
 
     /// True if t lies there against an interval whose start has a sign, and whose end is finite or not.
@@ -217,60 +224,63 @@ impl CaseShape {
 
     /// How far the triangle lies from 0, in longest edges.
     fn offset(&self) -> f64 {
-        self.points
-            .map(length)
-            .into_iter()
-            .fold(f64::INFINITY, f64::min)
-            / self.edge
+        let distances = self.points.map(length);
+        let nearest = distances.into_iter().fold(f64::INFINITY, f64::min);
+        nearest / self.edge
     }
 }
 
-/// The share of a family's cases that are like each of [`ASPECTS`], in both scalars together; of a stratum in the scene
+/// The share of a family's cases that are like each of [`ASPECTS`], in both scalars together; for a stratum in the scene
 /// `room`, on every kind of plane.
 pub fn coverage(family: &Family, indices: u64) -> Vec<f64> {
-    let is_stratum = STRATA.iter().any(|stratum| stratum.name == family.name);
-    let scenes = match is_stratum {
-        false => vec![Parameters::default()],
-        true => {
-            let (room, _) = Scene::parse("room").expect("a preset");
-            let in_scene = |scene| Parameters {
-                scene: Some(scene),
-                ..Parameters::default()
-            };
-            room.to_try_kernels("room")
-                .of_all_kinds()
-                .into_iter()
-                .map(in_scene)
-                .collect()
-        }
+    let mut counts = Counts {
+        cases: 0,
+        met: vec![0; ASPECTS.len()],
     };
-    let (mut counts, mut cases) = (vec![0u64; ASPECTS.len()], 0);
-    for parameters in &scenes {
-        cases += add::<f32>(family, parameters, indices, &mut counts)
-            + add::<f64>(family, parameters, indices, &mut counts);
+    for parameters in parameters_of(family) {
+        counts.add::<f32>(family, &parameters, indices);
+        counts.add::<f64>(family, &parameters, indices);
     }
-    counts
-        .into_iter()
-        .map(|count| count as f64 / cases as f64)
-        .collect()
+    let share = |met: &u64| *met as f64 / counts.cases as f64;
+    counts.met.iter().map(share).collect()
 }
 
-fn add<F: Scalar>(
-    family: &Family,
-    parameters: &Parameters,
-    indices: u64,
-    counts: &mut [u64],
-) -> u64 {
-    let made = (0..indices).map(|index| family.make::<F>(parameters, 1, index));
-    let mut cases = 0;
-    for case in made.flat_map(|made| made.cases().to_vec()) {
-        let shape = CaseShape::of(&case);
-        cases += 1;
-        for (count, cell) in counts.iter_mut().zip(ASPECTS) {
-            *count += u64::from((cell.is_met)(&shape));
+/// The parameters with which the cases of a family are looked at.
+fn parameters_of(family: &Family) -> Vec<Parameters> {
+    let is_stratum = STRATA.iter().any(|stratum| stratum.name == family.name);
+    if !is_stratum {
+        return vec![Parameters::default()];
+    }
+    let (room, _) = Scene::parse("room").expect("a preset");
+    let mut parameters = Vec::new();
+    for scene in room.to_try_kernels("room").of_all_kinds() {
+        parameters.push(Parameters {
+            scene: Some(scene),
+            ..Parameters::default()
+        });
+    }
+    parameters
+}
+
+/// How many cases there are, and how many of them are like each of [`ASPECTS`].
+struct Counts {
+    cases: u64,
+    met: Vec<u64>,
+}
+
+impl Counts {
+    fn add<F: Scalar>(&mut self, family: &Family, parameters: &Parameters, indices: u64) {
+        for index in 0..indices {
+            let made = family.make::<F>(parameters, 1, index);
+            for case in made.cases() {
+                let shape = CaseShape::of(case);
+                self.cases += 1;
+                for (met, aspect) in self.met.iter_mut().zip(ASPECTS) {
+                    *met += u64::from((aspect.is_met)(&shape));
+                }
+            }
         }
     }
-    cases
 }
 
 #[cfg(test)]

@@ -75,16 +75,8 @@ fn severity(
     let n = b.minus(a).cross(&c.minus(a));
     let capital_d = n.dot(d);
     let crosses = !capital_d.is_zero();
-    let Squares {
-        longest,
-        in_space,
-        along,
-    } = Squares::of(ray, triangle, crosses);
-    let unit = if longest.is_zero() {
-        Exact::one()
-    } else {
-        longest
-    };
+    let squares = Squares::of(ray, triangle, crosses);
+    let unit = squares.unit();
     let relative = |square: Exact| (square / &unit).approximate_root();
 
     let in_plane = crosses.then(|| {
@@ -94,11 +86,11 @@ fn severity(
     let in_plane = in_plane.and_then(|squares| squares.into_iter().reduce(Exact::smaller));
     let along = ends(extent)
         .iter()
-        .filter_map(|&end| along[end].clone())
+        .filter_map(|&end| squares.along[end].clone())
         .reduce(Exact::smaller);
     Severity {
         in_plane: in_plane.map(relative),
-        in_space: relative(in_space),
+        in_space: relative(squares.in_space),
         along: along.map(relative),
         off_end: truth
             .crossing()

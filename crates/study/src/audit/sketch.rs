@@ -20,8 +20,9 @@ const START: u64 = 0x5851_f42d_4c95;
 /// The digits of the text, which needs neither quotes nor escapes anywhere.
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
-/// Eight digits of six bits.
-const DIGITS_A_CELL: u32 = BITS / 6;
+/// A digit has six bits, so a cell has eight digits.
+const DIGIT_BITS: u32 = 6;
+const DIGITS_A_CELL: usize = (BITS / DIGIT_BITS) as usize;
 
 /// Sums, modulo 2^48, of scrambled places, each in one of 64 cells that its own bits choose. Adding is
 /// commutative, as for a digest. Where the cells of two sets differ by one place their difference is that
@@ -30,71 +31,84 @@ const DIGITS_A_CELL: u32 = BITS / 6;
 /// 95 if as many went (simulated, up to 250,000 places). A cell in which several differ is taken for a place of a set of n by
 /// chance once in 2^48/n times at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Sketch([u64; CELLS]);
+pub(super) struct Sketch {
+    cells: [u64; CELLS],
+}
 
 impl Default for Sketch {
     fn default() -> Sketch {
-        Sketch([0; CELLS])
+        Sketch { cells: [0; CELLS] }
     }
 }
 
 impl Sketch {
     /// Adds a place: an index, and a triangle.
     pub fn add(&mut self, (index, triangle): (u64, u32)) {
-        if index >> INDEX_BITS == 0 && triangle >> (BITS - INDEX_BITS) == 0 {
-            let key = scrambled(u64::from(triangle) << INDEX_BITS | index);
-            let cell = &mut self.0[cell_of(key)];
-            *cell = (*cell + key) & MASK;
+        let is_beyond = index >> INDEX_BITS != 0 || triangle >> (BITS - INDEX_BITS) != 0;
+        if is_beyond {
+            return;
         }
+        let key = scrambled(u64::from(triangle) << INDEX_BITS | index);
+        let cell = &mut self.cells[cell_of(key)];
+        *cell = (*cell + key) & MASK;
     }
 
     /// Adds another set, which has no place of this one.
     pub fn merge(&mut self, other: &Sketch) {
-        for (cell, more) in self.0.iter_mut().zip(other.0) {
+        for (cell, more) in self.cells.iter_mut().zip(other.cells) {
             *cell = (*cell + more) & MASK;
         }
     }
 
     /// Places of this set that another does not have: some of them, and perhaps none although there are.
     pub fn beyond(&self, other: &Sketch) -> impl Iterator<Item = (u64, u32)> {
-        let keys = self
-            .0
-            .iter()
-            .zip(other.0)
-            .map(|(cell, old)| cell.wrapping_sub(old) & MASK);
-        keys.enumerate()
-            .filter(|&(i, key)| key != 0 && cell_of(key) == i)
-            .map(|(_, key)| {
-                let place = restored(key);
-                (
-                    place & ((1 << INDEX_BITS) - 1),
-                    (place >> INDEX_BITS) as u32,
-                )
-            })
+        let pairs = self.cells.iter().zip(other.cells).enumerate();
+        pairs.filter_map(|(i, (cell, old))| {
+            let key = cell.wrapping_sub(old) & MASK;
+            let may_be_one_place = key != 0 && cell_of(key) == i;
+            if !may_be_one_place {
+                return None;
+            }
+            let place = restored(key);
+            let index = place & ((1 << INDEX_BITS) - 1);
+            let triangle = (place >> INDEX_BITS) as u32;
+            Some((index, triangle))
+        })
     }
 
-    /// The cells that are not 0: each its number, and its sum.
+    /// The cells that are not 0: each its number, and its sum, the first digit first.
     pub fn text(&self) -> String {
         let mut text = String::new();
-        for (i, cell) in self.0.iter().enumerate().filter(|(_, cell)| **cell != 0) {
+        for (i, cell) in self.cells.iter().enumerate() {
+            if *cell == 0 {
+                continue;
+            }
             text.push(char::from(DIGITS[i]));
-            let digits = (0..DIGITS_A_CELL)
-                .rev()
-                .map(|k| (cell >> (6 * k)) as usize % 64);
-            text.extend(digits.map(|digit| char::from(DIGITS[digit])));
+            for k in (0..DIGITS_A_CELL as u32).rev() {
+                let digit = (cell >> (DIGIT_BITS * k)) as usize % DIGITS.len();
+                text.push(char::from(DIGITS[digit]));
+            }
         }
         text
     }
 
     /// Reads the text.
     pub fn read(text: &str) -> Option<Sketch> {
-        let digit = |byte: &u8| DIGITS.iter().position(|digit| digit == byte);
-        let digits: Vec<usize> = text.as_bytes().iter().map(digit).collect::<Option<_>>()?;
-        let cells = digits.chunks(1 + DIGITS_A_CELL as usize);
+        let mut digits = Vec::with_capacity(text.len());
+        for byte in text.bytes() {
+            digits.push(DIGITS.iter().position(|digit| *digit == byte)?);
+        }
         let mut sketch = Sketch::default();
-        for cell in cells {
-            let (place, digits) = cell.split_first().filter(|(_, digits)| digits.len() == 8)?;
-            sketch.0[*place] = digits.iter().fold(0, |sum, digit| sum << 6 | *digit as u64);
+        for cell in digits.chunks(1 + DIGITS_A_CELL) {
+            let (place, sum_digits) = cell.split_first()?;
+            if sum_digits.len() != DIGITS_A_CELL {
+                return None;
+            }
+            let mut sum = 0;
+            for digit in sum_digits {
+                sum = sum << DIGIT_BITS | *digit as u64;
+            }
+            sketch.cells[*place] = sum;
         }
         Some(sketch)
     }
@@ -103,29 +117,41 @@ impl Sketch {
 /// The cell of a scrambled place.
 fn cell_of(key: u64) -> usize {
     let level = key.trailing_zeros().min(LEVELS - 1);
-    (level * BUCKETS) as usize + (key >> (BITS - 2)) as usize
+    let bucket = key >> (BITS - 2);
+    (level * BUCKETS) as usize + bucket as usize
 }
 
 /// One 48-bit number for another, so that every bit depends on every bit.
 fn scrambled(place: u64) -> u64 {
-    let fold = |x: u64| x ^ x >> 24;
-    FACTORS.iter().fold(fold(place ^ START), |x, factor| {
-        fold(x.wrapping_mul(*factor) & MASK)
-    })
+    let mut x = folded(place ^ START);
+    for factor in FACTORS {
+        x = folded(x.wrapping_mul(factor) & MASK);
+    }
+    x
 }
 
 /// The number that is scrambled to this one.
 fn restored(key: u64) -> u64 {
-    let fold = |x: u64| x ^ x >> 24;
-    let undone = |x: u64, factor: &u64| fold(x).wrapping_mul(inverse(*factor)) & MASK;
-    fold(FACTORS.iter().rev().fold(key, undone)) ^ START
+    let mut x = key;
+    for factor in FACTORS.into_iter().rev() {
+        x = folded(x).wrapping_mul(inverse(factor)) & MASK;
+    }
+    folded(x) ^ START
+}
+
+/// The upper half of 48 bits, added to the lower half without carries: its own inverse.
+fn folded(x: u64) -> u64 {
+    x ^ x >> (BITS / 2)
 }
 
 /// The inverse of an odd number, modulo 2^64, by Newton's iteration: right bits double from three.
 fn inverse(odd: u64) -> u64 {
-    (0..5).fold(odd, |x, _| {
-        x.wrapping_mul(2u64.wrapping_sub(odd.wrapping_mul(x)))
-    })
+    let mut x = odd;
+    for _ in 0..5 {
+        let correction = 2u64.wrapping_sub(odd.wrapping_mul(x));
+        x = x.wrapping_mul(correction);
+    }
+    x
 }
 
 #[cfg(test)]

@@ -56,18 +56,12 @@ pub fn exact_to_change<F: Float>(
     }
     let (ray, triangle) = case.exact();
     let crosses = truth.crossing().is_some();
-    let Squares {
-        longest,
-        in_space,
-        along,
-    } = Squares::<Exact>::of(&ray, &triangle, crosses);
-    let unit = if longest.is_zero() {
-        Exact::one()
-    } else {
-        longest
-    };
-    let along = along.map(|square| square.unwrap_or_else(Exact::infinity));
-    Some((to_change(truth, contract, in_space, along) / unit).sqrt())
+    let squares = Squares::<Exact>::of(&ray, &triangle, crosses);
+    let unit = squares.unit();
+    let along = squares
+        .along
+        .map(|square| square.unwrap_or_else(Exact::infinity));
+    Some((to_change(truth, contract, squares.in_space, along) / unit).sqrt())
 }
 
 /// True if a valid case is nearer than a band to where its obligation would change; decided exactly.

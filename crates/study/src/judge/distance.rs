@@ -4,6 +4,7 @@
 //! Three steps, each trusted only where it is certain to a thousandth: floats, double-doubles with
 //! bounds, integers. What the truth knows to be zero is zero.
 
+mod floats;
 mod integers;
 #[cfg(test)]
 mod tests;
@@ -12,8 +13,8 @@ use crate::arith::{
     Bounded, Exact, Float, Real, Triple, Vector, bounded, scale_by_power_of_two as scaled,
 };
 use crate::case::{Case, Instance, Ray, Triangle};
-use crate::truth::{Contact, Place, Truth};
-use glam::DVec3;
+use crate::truth::{Place, Truth};
+use floats::{Quick, quick};
 use std::cmp::Ordering;
 
 /// Distances of a valid case, in units of the triangle's longest edge (of length, for a triangle that
@@ -54,24 +55,29 @@ impl<R: Real> Squares<R> {
     /// The squares of a valid case, in an arithmetic that does not round. `crosses` says whether the line crosses
     /// the plane at one point.
     pub fn of(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>, crosses: bool) -> Squares<R> {
-        let (o, d) = (&ray.origin, &ray.direction);
+        let o = &ray.origin;
+        let d = &ray.direction;
         let edges = triangle.edges();
-        let longest = edges
-            .map(|(p, q)| square(&q.minus(p)))
-            .into_iter()
-            .reduce(R::larger);
-        let to_edges = edges.map(|(p, q)| line_to_segment(o, d, p, q));
+        let [ab, bc, ca] = edges.map(|(p, q)| square(&q.minus(p)));
+        let [to_ab, to_bc, to_ca] = edges.map(|(p, q)| line_to_segment(o, d, p, q));
+        let along = if crosses {
+            along(ray, triangle)
+        } else {
+            [None, None, None]
+        };
         Squares {
-            longest: longest.expect("three edges"),
-            in_space: to_edges
-                .into_iter()
-                .reduce(R::smaller)
-                .expect("three edges"),
-            along: if crosses {
-                along(ray, triangle)
-            } else {
-                [None, None, None]
-            },
+            longest: ab.larger(bc).larger(ca),
+            in_space: to_ab.smaller(to_bc).smaller(to_ca),
+            along,
+        }
+    }
+
+    /// The square of the divisor of distances: the longest edge, or a length of 1 if that is zero.
+    pub fn unit(&self) -> R {
+        if self.longest.is_zero() {
+            R::one()
+        } else {
+            self.longest.clone()
         }
     }
 }
@@ -89,7 +95,10 @@ fn along<R: Real>(ray: &Ray<Triple<R>>, triangle: &Triangle<Triple<R>>) -> [Opti
     let n = b.minus(a).cross(&c.minus(a));
     let t = n.dot(&a.minus(o)) / n.dot(d);
     [&R::zero(), t_min, t_max].map(|end| {
-        let gap = end.is_finite().then(|| t.clone() - end)?;
+        if !end.is_finite() {
+            return None;
+        }
+        let gap = t.clone() - end;
         Some(gap.clone() * gap * square(d))
     })
 }
@@ -102,7 +111,8 @@ pub fn square<V: Vector>(v: &V) -> V::Real {
 /// The square of the distance between a line and a segment: |(p - o + s·(q - p)) × d|² / |d|² at the
 /// s in [0, 1] that makes it least.
 pub(super) fn line_to_segment<V: Vector>(o: &V, d: &V, p: &V, q: &V) -> V::Real {
-    let (offset, slope) = (p.minus(o).cross(d), q.minus(p).cross(d));
+    let offset = p.minus(o).cross(d);
+    let slope = q.minus(p).cross(d);
     let s = nearest_on_segment(-offset.dot(&slope), square(&slope));
     square(&offset.plus(&slope.times(&s))) / square(d)
 }
@@ -118,13 +128,10 @@ pub fn nearest_on_segment<R: Real>(numerator: R, denominator: R) -> R {
 /// The unit in the last place of the largest coordinate of a case's points.
 pub fn ulp_of_points<F: Float>(case: &Case<F>) -> F {
     let [o, _, a, b, c] = case.vectors();
-    let coordinates = [o, a, b, c];
-    coordinates
-        .as_flattened()
-        .iter()
-        .map(F::abs)
-        .fold(F::zero(), F::larger)
-        .ulp()
+    let points = [o, a, b, c];
+    let sizes = points.as_flattened().iter().map(F::abs);
+    let largest = sizes.fold(F::zero(), F::larger);
+    largest.ulp()
 }
 
 impl Distances {
@@ -133,22 +140,22 @@ impl Distances {
         Distances::and_step(case, truth).0
     }
 
-    /// Those of a ray of the world and the triangle that an instance puts there, as the object has them.
+    /// The distances of a ray of the world and the triangle that an instance puts there, as the object has them.
     pub fn of_instance<F: Float>(
         case: &Case<F>,
         instance: &Instance<F>,
         truth: &Truth,
     ) -> Distances {
-        let (zeros, ulp) = (Zeros::of(truth), ulp_of_points(case).to_f64());
+        let zeros = Zeros::of(truth);
         let root = |square: &Bounded| Some(square.approximate()?.sqrt());
-        let found = bounded(|| relative((case, instance), Bounded::new, &zeros, ulp, root));
-        found.flatten().unwrap_or_else(|| {
+        let in_bounds = bounded(|| relative(case, instance, &zeros, root));
+        in_bounds.flatten().unwrap_or_else(|| {
             let root = |square: &Exact| Some(square.approximate_root());
-            relative((case, instance), Exact::from_f64, &zeros, ulp, root).expect("always a root")
+            relative(case, instance, &zeros, root).expect("always a root")
         })
     }
 
-    /// As floats see them, right or not: for a search to climb on.
+    /// The distances as floats see them, right or not: for a search to climb on.
     pub fn at_a_glance<F: Float>(case: &Case<F>, truth: &Truth) -> Distances {
         let near = NearOne::of(&case.widen());
         let ulp = scaled(ulp_of_points(case).to_f64(), -near.size);
@@ -156,7 +163,7 @@ impl Distances {
         found.map_or_else(|| Distances::of(case, truth), |quick| quick.distances)
     }
 
-    /// And the step that was certain.
+    /// The distances, and the step that was certain.
     fn and_step<F: Float>(case: &Case<F>, truth: &Truth) -> (Distances, DistanceStep) {
         let zeros = Zeros::of(truth);
         let ulp = ulp_of_points(case).to_f64();
@@ -172,52 +179,61 @@ impl Distances {
         if let Some(found) = found.and_then(Quick::certain) {
             return (found, DistanceStep::FloatsNearOne);
         }
-        let by_bounds = || by_bounds(&near, &found?, &zeros).filter(|_| near.is_exact(&wide));
-        match by_bounds() {
-            Some(found) => (found, DistanceStep::DoubleDoubles),
-            None => (
-                integers::distances(&wide, ulp, zeros.along.is_some()),
-                DistanceStep::Integers,
-            ),
+        if near.is_exact(&wide)
+            && let Some(found) = found
+            && let Some(found) = by_bounds(&near, &found, &zeros)
+        {
+            return (found, DistanceStep::DoubleDoubles);
         }
+        let found = integers::distances(&wide, ulp, zeros.along.is_some());
+        (found, DistanceStep::Integers)
     }
 }
 
 /// The distances of an instance, from squares in an arithmetic that does not round; none where no root is known.
 fn relative<F: Float, R: Real>(
-    (case, instance): (&Case<F>, &Instance<F>),
-    number: fn(f64) -> R,
+    case: &Case<F>,
+    instance: &Instance<F>,
     zeros: &Zeros,
-    ulp: f64,
     root: impl Fn(&R) -> Option<f64>,
 ) -> Option<Distances> {
-    let (ray, triangle, times) = instance.lift(case, number);
-    let ulp = number(ulp) * times;
-    let Squares {
-        longest,
+    let (ray, triangle, times) = instance.lift(case, R::number);
+    let squares = Squares::of(&ray, &triangle, zeros.along.is_some());
+    let unit = squares.unit();
+    let relative = |square: R| root(&(square / &unit));
+    let along = match zeros.along {
+        Some(is_at) => along_from(squares.along, is_at, relative)?,
+        None => [f64::NAN; 3],
+    };
+    let in_space = if zeros.in_space {
+        0.0
+    } else {
+        relative(squares.in_space)?
+    };
+    let ulp = R::number(ulp_of_points(case).to_f64()) * times;
+    Some(Distances {
         in_space,
         along,
-    } = Squares::of(&ray, &triangle, zeros.along.is_some());
-    let unit = if longest.is_zero() { R::one() } else { longest };
-    let relative = |square: R| root(&(square / &unit));
-    let mut ends = [f64::NAN; 3];
-    for (i, square) in along.into_iter().enumerate() {
-        ends[i] = match (zeros.along, square) {
-            (None, _) => f64::NAN,
-            (Some(at), _) if at[i] => 0.0,
-            (Some(_), None) => f64::INFINITY,
-            (Some(_), Some(square)) => relative(square)?,
-        };
-    }
-    Some(Distances {
-        in_space: if zeros.in_space {
-            0.0
-        } else {
-            relative(in_space)?
-        },
-        along: ends,
         edge_in_ulps: root(&(unit.clone() / (ulp.clone() * ulp)))?,
     })
+}
+
+/// The distances along a line, from their squares and from the ends at which t is known to be; none where a root is not
+/// known.
+fn along_from<R>(
+    squares: [Option<R>; 3],
+    is_at: [bool; 3],
+    root: impl Fn(R) -> Option<f64>,
+) -> Option<[f64; 3]> {
+    let mut along = [f64::INFINITY; 3];
+    for (i, square) in squares.into_iter().enumerate() {
+        if is_at[i] {
+            along[i] = 0.0;
+        } else if let Some(square) = square {
+            along[i] = root(square)?;
+        }
+    }
+    Some(along)
 }
 
 /// The distances that a truth knows to be zero, or not to be.
@@ -229,25 +245,20 @@ struct Zeros {
 
 impl Zeros {
     fn of(truth: &Truth) -> Zeros {
-        match truth {
-            Truth::Transversal(crossing) => Zeros {
-                in_space: crossing.feature.is_edge() || crossing.feature.is_vertex(),
-                along: Some([
+        let (in_space, along) = match truth {
+            Truth::Transversal(crossing) => {
+                let along = [
                     crossing.t_sign == Ordering::Equal,
                     crossing.place == Place::AtMin,
                     crossing.place == Place::AtMax,
-                ]),
-            },
-            Truth::Coplanar(Contact { meets_line, .. })
-            | Truth::Degenerate(Contact { meets_line, .. }) => Zeros {
-                in_space: *meets_line,
-                along: None,
-            },
-            Truth::Parallel | Truth::Invalid => Zeros {
-                in_space: false,
-                along: None,
-            },
-        }
+                ];
+                let is_at_boundary = crossing.feature.is_edge() || crossing.feature.is_vertex();
+                (is_at_boundary, Some(along))
+            }
+            Truth::Coplanar(contact) | Truth::Degenerate(contact) => (contact.meets_line, None),
+            Truth::Parallel | Truth::Invalid => (false, None),
+        };
+        Zeros { in_space, along }
     }
 }
 
@@ -261,11 +272,15 @@ struct NearOne {
 impl NearOne {
     fn of(case: &Case<f64>) -> NearOne {
         let [o, d, a, b, c] = case.vectors();
-        let (size, length) = (exponent_of([o, a, b, c].as_flattened()), exponent_of(&d));
+        let size = exponent_of([o, a, b, c].as_flattened());
+        let length = exponent_of(&d);
         let [o, a, b, c] = [o, a, b, c].map(|point| point.map(|x| scaled(x, -size)));
+        let d = d.map(|x| scaled(x, -length));
         let [t_min, t_max] = [case.ray.t_min, case.ray.t_max].map(|end| scaled(end, length - size));
-        let near = Case::new(o, d.map(|x| scaled(x, -length)), [a, b, c]).on(t_min, t_max);
-        NearOne { case: near, size }
+        NearOne {
+            case: Case::new(o, d, [a, b, c]).on(t_min, t_max),
+            size,
+        }
     }
 
     /// True if every number equals the case's but for the powers of two: none underflowed.
@@ -276,20 +291,9 @@ impl NearOne {
             let power = if i == 1 { length } else { self.size };
             *vector = vector.map(|x| scaled(x, power));
         }
-        let end = |t: f64| scaled(t, self.size - length);
         let near = &self.case.ray;
-        back == case.vectors()
-            && [end(near.t_min), end(near.t_max)] == [case.ray.t_min, case.ray.t_max]
-    }
-}
-
-/// The divisor of distances: the longest edge, or a length of 1 if that is zero; lengths were
-/// divided by 2^size.
-fn unit_of(longest: f64, size: i32) -> f64 {
-    if longest > 0.0 {
-        longest
-    } else {
-        scaled(1.0, -size)
+        let ends = [near.t_min, near.t_max].map(|end| scaled(end, self.size - length));
+        back == case.vectors() && ends == [case.ray.t_min, case.ray.t_max]
     }
 }
 
@@ -299,98 +303,9 @@ fn exponent_of(numbers: &[f64]) -> i32 {
     (largest.to_bits() >> 52) as i32 - 1023
 }
 
-/// The distances that floats find, and those that they leave in doubt.
-#[derive(Clone, Copy)]
-struct Quick {
-    distances: Distances,
-    /// The divisor of lengths.
-    unit: f64,
-    /// Edges so near to the line that rounding could matter; none if the distance is certain.
-    edges_in_doubt: [bool; 3],
-    along_in_doubt: bool,
-}
-
-impl Quick {
-    fn certain(self) -> Option<Distances> {
-        let doubt = self.along_in_doubt || self.edges_in_doubt != [false; 3];
-        (!doubt).then_some(self.distances)
-    }
-}
-
-/// In floats, of a case whose lengths, and the ulp, were divided by 2^size; none where a square may
-/// underflow.
-fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Option<Quick> {
-    let vectors = case.vectors();
-    let [o, d, a, b, c] = vectors.map(DVec3::from);
-    let largest = scaled(
-        1.0,
-        exponent_of([vectors[0], vectors[2], vectors[3], vectors[4]].as_flattened()),
-    );
-    let sides = [b - a, c - b, a - c].map(DVec3::length_squared);
-    let longest = sides.into_iter().fold(0.0, f64::max).sqrt();
-    // The square of a very short edge underflows.
-    if longest < scaled(largest, -400) && !(a == b && b == c) {
-        return None;
-    }
-    let unit = unit_of(longest, size);
-    let length = d.length();
-    let offsets = [a, b, c].map(|p| (p - o).cross(d));
-    let to_edges = [(0, 1), (1, 2), (2, 0)].map(|(p, q)| {
-        let (offset, edge) = (offsets[p], offsets[q] - offsets[p]);
-        // Of an edge that is a point, 0/0: the larger of NaN and 0 is 0.
-        let s = (-offset.dot(edge) / edge.length_squared())
-            .clamp(0.0, 1.0)
-            .max(0.0);
-        (offset + edge * s).length_squared()
-    });
-    let in_space = to_edges.into_iter().fold(f64::INFINITY, f64::min).sqrt() / length;
-    // Let L be `largest` and u = 2^-53. Coordinates are below 2L, so p - o is below 4L in each, and its
-    // rounding, that of two products and of their difference come to 24uL|d| in the cross product. The
-    // difference of two of these, its product with s and the sum round by less than 40uL|d| together;
-    // a rounded s only chooses another point of the edge. In all that is below 2^-46 L|d|.
-    let near = scaled(largest, -36);
-    let mut edges_in_doubt = [false; 3];
-    if !zeros.in_space && (in_space < near || in_space.is_nan()) {
-        // An edge beyond twice that is not the nearest.
-        let limit = 2.0 * near * length;
-        edges_in_doubt = to_edges.map(|square| square < limit * limit || square.is_nan());
-    }
-    let mut along = [f64::NAN; 3];
-    let mut along_in_doubt = false;
-    if let Some(at) = zeros.along {
-        let n = (b - a).cross(c - a);
-        let (plane, speed) = (n.dot(a - o), n.dot(d));
-        let t = plane / speed;
-        // n is off by 8u times the square of the longest edge, products with it and their sums by 4u more:
-        // in all by less than 2^-48. That holds for t where n·d is certain, and only then 0, which is an end
-        // always, is far enough from t.
-        let of_normal = scaled(longest * longest, -48);
-        let error = of_normal * ((a - o).length() + t.abs() * length) / speed.abs();
-        let ends = [0.0, case.ray.t_min, case.ray.t_max];
-        for ((along, end), is_at) in along.iter_mut().zip(ends).zip(at) {
-            let gap = (t - end).abs();
-            let certain = gap > 1024.0 * error;
-            along_in_doubt |= !is_at && end.is_finite() && !certain;
-            *along = if is_at { 0.0 } else { gap * length / unit };
-        }
-    }
-    let in_space = if zeros.in_space { 0.0 } else { in_space / unit };
-    let distances = Distances {
-        in_space,
-        along,
-        edge_in_ulps: unit / ulp,
-    };
-    Some(Quick {
-        distances,
-        unit,
-        edges_in_doubt,
-        along_in_doubt,
-    })
-}
-
 /// Decides in double-doubles with bounds what floats left in doubt; none where the bounds do not decide.
 fn by_bounds(near: &NearOne, found: &Quick, zeros: &Zeros) -> Option<Distances> {
-    let (ray, triangle) = near.case.lift(Bounded::new);
+    let (ray, triangle) = near.case.lift(Bounded::number);
     let mut distances = found.distances;
     let relative = |square: Bounded| Some(square.approximate()?.sqrt() / found.unit);
     if found.edges_in_doubt != [false; 3] {
@@ -402,16 +317,11 @@ fn by_bounds(near: &NearOne, found: &Quick, zeros: &Zeros) -> Option<Distances> 
             }
         }
     }
-    if let (true, Some(at)) = (found.along_in_doubt, zeros.along) {
+    if found.along_in_doubt
+        && let Some(is_at) = zeros.along
+    {
         let squares = bounded(|| along(&ray, &triangle))?;
-        for (i, square) in squares.into_iter().enumerate() {
-            distances.along[i] = match square {
-                _ if at[i] => 0.0,
-                // The end is infinite.
-                None => f64::INFINITY,
-                Some(square) => relative(square)?,
-            };
-        }
+        distances.along = along_from(squares, is_at, relative)?;
     }
     Some(distances)
 }

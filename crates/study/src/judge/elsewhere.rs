@@ -28,36 +28,51 @@ pub fn may_be_elsewhere<F: Float>(
     verdicts: &[Verdict<F>],
     contract: &Contract,
 ) -> bool {
-    let (mut lost, mut beside_silhouette) = (0, false);
-    // Faces that meet at a vertex or an edge of the line have one crossing there: by that vertex or edge
-    // and the side, whether none reports it.
-    let mut shared: Vec<(Rim<F>, bool, bool)> = Vec::new();
+    let mut met_near: Vec<NearCrossing<F>> = Vec::new();
     for ((case, truth), verdict) in neighbours.iter().zip(truths).zip(verdicts) {
-        match met(truth, contract) {
-            _ if verdict.failure.is_some() => return true,
-            None if verdict.hit => return true,
-            Some(crossing) if Distances::of(case, truth).in_space < NEAR => {
-                let from_behind = crossing.facing != facing;
-                let Some(rim) = rim(case, crossing.feature) else {
-                    lost += usize::from(!verdict.hit);
-                    beside_silhouette |= from_behind && !verdict.hit;
-                    continue;
-                };
-                match shared
-                    .iter_mut()
-                    .find(|known| known.0 == rim && known.1 == from_behind)
-                {
-                    Some(known) => known.2 &= !verdict.hit,
-                    None => shared.push((rim, from_behind, !verdict.hit)),
-                }
+        if verdict.failure.is_some() {
+            return true;
+        }
+        let Some(crossing) = met(truth, contract) else {
+            if verdict.hit {
+                return true;
             }
-            _ => {}
+            continue;
+        };
+        let is_near = Distances::of(case, truth).in_space < NEAR;
+        if !is_near {
+            continue;
+        }
+        let is_lost = !verdict.hit;
+        let from_behind = crossing.facing != facing;
+        let rim = rim(case, crossing.feature);
+        let is_same = |known: &&mut NearCrossing<F>| {
+            rim.is_some() && known.rim == rim && known.from_behind == from_behind
+        };
+        match met_near.iter_mut().find(is_same) {
+            Some(known) => known.is_lost &= is_lost,
+            None => met_near.push(NearCrossing {
+                rim,
+                from_behind,
+                is_lost,
+            }),
         }
     }
-    let lost_on_rims = shared.iter().filter(|(_, _, none)| *none);
-    lost += lost_on_rims.clone().count();
-    beside_silhouette |= lost_on_rims.clone().any(|(_, from_behind, _)| *from_behind);
-    beside_silhouette && (lost % 2 == 1 || contract.sides == Sides::Front)
+    let mut lost = met_near.iter().filter(|crossing| crossing.is_lost);
+    let keeps_parity = lost.clone().count() % 2 == 1;
+    let beside_silhouette = lost.any(|crossing| crossing.from_behind);
+    beside_silhouette && (keeps_parity || contract.sides == Sides::Front)
+}
+
+/// A crossing near the boundary of a neighbour. Faces that meet at a vertex or an edge on the line, and are seen from the
+/// same side, have one crossing there.
+struct NearCrossing<F> {
+    /// The vertex or the edge; none inside a face.
+    rim: Option<Rim<F>>,
+    /// True if it is seen from the other side than the group.
+    from_behind: bool,
+    /// True if none of its faces reports it.
+    is_lost: bool,
 }
 
 /// True if a hit of a triangle around a group is the group's, which rounding has moved: the exact line does not meet that
@@ -68,10 +83,9 @@ pub fn is_moved(truth: &Truth, contract: &Contract) -> bool {
 
 /// Where the exact line meets a triangle within the extent.
 fn met<'t>(truth: &'t Truth, contract: &Contract) -> Option<&'t Crossing> {
-    let is_met = |crossing: &&Crossing| {
-        crossing.feature != Feature::Outside && is_in_extent(crossing, contract.extent)
-    };
-    truth.crossing().filter(is_met)
+    let crossing = truth.crossing()?;
+    let is_met = crossing.feature != Feature::Outside && is_in_extent(crossing, contract.extent);
+    is_met.then_some(crossing)
 }
 
 /// The ends of an edge, the lesser first, or a vertex twice.

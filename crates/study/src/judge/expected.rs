@@ -11,31 +11,42 @@ use crate::truth::{Facing, Truth};
 pub struct Kinds {
     /// One a truth.
     pub of: Vec<TruthKind>,
-    /// Each kind that occurs, with the place of its first truth and their number.
-    each: Vec<(TruthKind, usize, u64)>,
+    /// Each kind that occurs.
+    each: Vec<KindCount>,
+}
+
+/// A kind that occurs among many truths.
+struct KindCount {
+    kind: TruthKind,
+    /// The place of its first truth.
+    first: usize,
+    count: u64,
 }
 
 impl Kinds {
     pub(crate) fn new(truths: &[Truth]) -> Kinds {
+        let mut of = Vec::with_capacity(truths.len());
+        let mut each: Vec<KindCount> = Vec::new();
         let mut slots = [None; TruthKind::COUNT];
-        let mut each: Vec<(TruthKind, usize, u64)> = Vec::new();
-        let mut count = |(i, truth): (usize, &Truth)| {
+        for (first, truth) in truths.iter().enumerate() {
             let kind = TruthKind::of(truth);
-            let slot = *slots[kind.number()].get_or_insert_with(|| {
-                each.push((kind, i, 0));
-                each.len() - 1
-            });
-            each[slot].2 += 1;
-            kind
-        };
-        Kinds {
-            of: truths.iter().enumerate().map(&mut count).collect(),
-            each,
+            let slot = *slots[kind.number()].get_or_insert(each.len());
+            if slot == each.len() {
+                each.push(KindCount {
+                    kind,
+                    first,
+                    count: 0,
+                });
+            }
+            each[slot].count += 1;
+            of.push(kind);
         }
+        Kinds { of, each }
     }
 }
 
 /// A contract's demands on many cases.
+#[derive(Default)]
 pub struct Demands {
     /// One a case.
     pub of: Vec<Expected>,
@@ -53,31 +64,30 @@ pub fn ask_all<F: Float>(
     contract: &Contract,
     secondary: bool,
 ) -> Demands {
-    let (of, counts): (Vec<Expected>, Vec<_>) = if contract.asks_of_truths_alone() {
-        // Few kinds occur, and each is asked the same.
+    let mut demands = Demands::default();
+    if contract.asks_of_truths_alone() {
+        // Few kinds occur, and all truths of a kind have the same obligation.
         let mut of_kind = [Expected::FREE; TruthKind::COUNT];
-        let ask = |&(kind, first, count): &(TruthKind, usize, u64)| {
-            let asked = obligation(&truths[first], contract, secondary);
-            of_kind[kind.number()] = Expected::new(asked, kind);
-            (kind.class(), asked, count)
-        };
-        let counts = kinds.each.iter().map(ask).collect();
-        (
-            kinds.of.iter().map(|kind| of_kind[kind.number()]).collect(),
-            counts,
-        )
+        for KindCount { kind, first, count } in &kinds.each {
+            let asked = obligation(&truths[*first], contract, secondary);
+            of_kind[kind.number()] = Expected::new(asked, *kind);
+            demands.counts.push((kind.class(), asked, *count));
+        }
+        let expected = kinds.of.iter().map(|kind| of_kind[kind.number()]);
+        demands.of.extend(expected);
     } else {
-        let cases = cases.iter().zip(truths).zip(&kinds.of);
-        let ask = |((case, truth), kind): ((&Case<F>, &Truth), &TruthKind)| {
+        for ((case, truth), kind) in cases.iter().zip(truths).zip(&kinds.of) {
             let asked = asked(case, truth, contract, secondary);
-            (Expected::new(asked, *kind), (kind.class(), asked, 1))
-        };
-        cases.map(ask).unzip()
-    };
-    let free = (0..of.len())
-        .filter(|&i| of[i].obligation() == Obligation::Free)
-        .collect();
-    Demands { of, free, counts }
+            demands.of.push(Expected::new(asked, *kind));
+            demands.counts.push((kind.class(), asked, 1));
+        }
+    }
+    for (i, expected) in demands.of.iter().enumerate() {
+        if expected.obligation() == Obligation::Free {
+            demands.free.push(i);
+        }
+    }
+    demands
 }
 
 /// The demand on a case, as flags.
@@ -122,11 +132,11 @@ impl Expected {
         limits: &ValueLimits<F>,
         verdict: &Verdict<F>,
     ) -> bool {
-        let near =
-            |which: usize, value: F| (limits.low[which] <= value) & (value <= limits.high[which]);
-        let near = (!T | near(0, verdict.t)) & (!UV | (near(1, verdict.u) & near(2, verdict.v)));
-        let facing = !FACING | (verdict.facing == self.facing);
-        let right_hit = verdict.hit & self.may_hit & near & facing;
+        let is_near = |i: usize, value: F| (limits.low[i] <= value) & (value <= limits.high[i]);
+        let near_t = !T | is_near(0, verdict.t);
+        let near_uv = !UV | (is_near(1, verdict.u) & is_near(2, verdict.v));
+        let right_side = !FACING | (verdict.facing == self.facing);
+        let right_hit = verdict.hit & self.may_hit & near_t & near_uv & right_side;
         let right_miss = !verdict.hit & self.may_miss;
         (right_hit | right_miss) & verdict.failure.is_none()
     }
@@ -140,17 +150,17 @@ pub fn suspects<F: Float>(
     verdicts: &[Verdict<F>],
     found: &mut Vec<usize>,
 ) {
-    let asked = (expected, limits);
-    match (gives.t, gives.uv, gives.facing) {
-        (false, false, false) => collect::<F, false, false, false>(asked, verdicts, found),
-        (false, false, true) => collect::<F, false, false, true>(asked, verdicts, found),
-        (false, true, false) => collect::<F, false, true, false>(asked, verdicts, found),
-        (false, true, true) => collect::<F, false, true, true>(asked, verdicts, found),
-        (true, false, false) => collect::<F, true, false, false>(asked, verdicts, found),
-        (true, false, true) => collect::<F, true, false, true>(asked, verdicts, found),
-        (true, true, false) => collect::<F, true, true, false>(asked, verdicts, found),
-        (true, true, true) => collect::<F, true, true, true>(asked, verdicts, found),
-    }
+    let collect = match (gives.t, gives.uv, gives.facing) {
+        (false, false, false) => collect::<F, false, false, false>,
+        (false, false, true) => collect::<F, false, false, true>,
+        (false, true, false) => collect::<F, false, true, false>,
+        (false, true, true) => collect::<F, false, true, true>,
+        (true, false, false) => collect::<F, true, false, false>,
+        (true, false, true) => collect::<F, true, false, true>,
+        (true, true, false) => collect::<F, true, true, false>,
+        (true, true, true) => collect::<F, true, true, true>,
+    };
+    collect((expected, limits), verdicts, found);
 }
 
 fn collect<F: Float, const T: bool, const UV: bool, const FACING: bool>(

@@ -151,8 +151,8 @@ impl RelatedValues {
             verdict,
             tolerance,
         };
-        let in_bounds = bounded(|| hit.related(&Allowed::of(case, Bounded::new)));
-        in_bounds.unwrap_or_else(|| hit.related(&Allowed::of(case, Exact::from_f64)))
+        let in_bounds = bounded(|| hit.related(&Allowed::<Bounded>::of(case)));
+        in_bounds.unwrap_or_else(|| hit.related(&Allowed::<Exact>::of(case)))
     }
 }
 
@@ -206,16 +206,16 @@ impl<F: Float> HitValues<'_, F> {
             (Relation::FromStartT, 1.0, t_min),
             (Relation::ShareT, 1.0 / (t_max - t_min), t_min),
         ];
-        let t = (allowed.number)(self.verdict.t.to_f64());
+        let t = R::number(self.verdict.t.to_f64());
         let holds = |factor: f64, start: f64| {
             let is_number = factor.is_normal() && start.is_finite();
             is_number && {
-                let start = (allowed.number)(start);
-                let factor = (allowed.number)(factor);
+                let start = R::number(start);
+                let factor = R::number(factor);
                 let expected = (allowed.exact[0].clone() - &start) * &factor;
-                let rounding = start.abs() * (allowed.number)(roundoff::<F>());
+                let rounding = start.abs() * R::number(roundoff::<F>());
                 let unit = (rounding + &allowed.unit[0]) * factor.abs();
-                is_near(allowed, &t, expected, unit)
+                is_near(&t, expected, unit)
             }
         };
         let held = lines
@@ -232,14 +232,9 @@ impl<F: Float> HitValues<'_, F> {
         let [_, u, v] = &allowed.exact;
         let weights = [R::one() - u - v, u.clone(), v.clone()];
         let unit = allowed.unit[1].clone() + &allowed.unit[2];
-        let found = [self.verdict.u, self.verdict.v].map(|x| (allowed.number)(x.to_f64()));
+        let found = [self.verdict.u, self.verdict.v].map(|x| R::number(x.to_f64()));
         let stands_for = |place: usize, weight: usize| {
-            is_near(
-                allowed,
-                &found[place],
-                weights[weight].clone(),
-                unit.clone(),
-            )
+            is_near(&found[place], weights[weight].clone(), unit.clone())
         };
         let holds = |[for_u, for_v]: [usize; 2]| stands_for(0, for_u) && stands_for(1, for_v);
         let held = WEIGHTS.into_iter().filter(|(_, weights)| holds(*weights));
@@ -254,18 +249,17 @@ impl<F: Float> HitValues<'_, F> {
             && given_values(self.gives, self.verdict)
                 .into_iter()
                 .all(|(which, value)| {
-                    let unit = (allowed.number)(COARSER) * &allowed.unit[which];
+                    let unit = R::number(COARSER) * &allowed.unit[which];
                     let exact = allowed.exact[which].clone();
-                    f64::from(value as f32) == value
-                        && is_near(allowed, &(allowed.number)(value), exact, unit)
+                    f64::from(value as f32) == value && is_near(&R::number(value), exact, unit)
                 })
     }
 }
 
 /// True if a number is as near to an expected one as [`ALLOWANCE`] units.
-fn is_near<R: Real>(allowed: &Allowed<R>, found: &R, expected: R, unit: R) -> bool {
+fn is_near<R: Real>(found: &R, expected: R, unit: R) -> bool {
     let off = (expected - found).abs();
-    off.is_at_most(&((allowed.number)(ALLOWANCE) * unit))
+    off.is_at_most(&(R::number(ALLOWANCE) * unit))
 }
 
 /// How far, in longest edges, a case must be from where its obligation changes, and from the triangle's boundary, to show how

@@ -11,13 +11,11 @@
 #[cfg(test)]
 mod tests;
 
-use super::distance::{Distances, ulp_of_points};
+use super::distance::{Distances, square, ulp_of_points};
 use crate::arith::{Bounded, Exact, Float, Real, Triple, Vector, bounded};
 use crate::case::{Case, Ray, Triangle};
 use crate::kernel::{Gives, Hit, Verdict};
 use crate::truth::{Feature, Truth};
-use glam::{DVec3, Vec3Swizzles};
-use std::array;
 
 /// How many times u·κ a value may be off. Of 500,000 rays at the insides, the edges and the vertices of
 /// triangles that are no slivers, no value of Möller and Trumbore's, of Cramer's rule and of Woop's test was off
@@ -41,76 +39,55 @@ pub(super) struct Allowed<R> {
     direction_squared: R,
     /// The least positive number of the scalar.
     least: f64,
-    pub(super) number: fn(f64) -> R,
 }
 
 impl<R: Real> Allowed<R> {
-    /// In an arithmetic that does not round, of a case in a scalar with this unit roundoff and this least
-    /// number.
-    pub(super) fn of<F: Float>(case: &Case<F>, number: fn(f64) -> R) -> Allowed<R> {
-        let roundoff = roundoff::<F>();
-        let (ray, triangle) = case.widen().lift(number);
-        let (
-            Ray {
-                origin: o,
-                direction: d,
-                ..
-            },
-            Triangle { a, b, c },
-        ) = (&ray, &triangle);
-        let (ab, ac) = (b.minus(a), c.minus(a));
+    /// The exact values of a case, in an arithmetic that does not round; the unit roundoff and the least number are those of
+    /// the case's scalar.
+    pub(super) fn of<F: Float>(case: &Case<F>) -> Allowed<R> {
+        let (ray, triangle) = case.widen().lift(R::number);
+        let Triangle { a, b, c } = &triangle;
+        let d = &ray.direction;
+        let ab = b.minus(a);
+        let ac = c.minus(a);
+        let bc = c.minus(b);
         let rows = [ab.cross(&ac), d.cross(&ac), ab.cross(d)];
         let determinant = d.dot(&rows[0]);
-        let start = a.minus(o);
+        let start = a.minus(&ray.origin);
         let exact = rows.each_ref().map(|row| row.dot(&start) / &determinant);
-        let [t, u, v] = &exact;
-        let w = R::one() - u - v;
-        let terms = [(a, &w), (b, u), (c, v), (d, t)];
-        let size = (0..3).map(|axis| {
-            let term = |(point, weight): (&Triple<R>, &R)| (point.at(axis) * weight).abs();
-            terms
-                .into_iter()
-                .map(term)
-                .fold(o.at(axis).abs(), |sum, term| sum + term)
-        });
-        let size = size.reduce(R::larger).expect("three axes");
-        let per_row = size * number(roundoff) / determinant.abs();
-        let unit: [R; 3] = array::from_fn(|i| {
-            let row = &rows[i];
-            let moved = (row.at(0).abs() + row.at(1).abs() + row.at(2).abs()) * &per_row;
-            if i == 0 {
-                moved
-            } else {
-                moved.larger(number(roundoff))
-            }
-        });
-        let edge = |edge: &Triple<R>| edge.dot(edge);
+        let size = size_of_terms(&ray, &triangle, &exact);
+        let roundoff = R::number(roundoff::<F>());
+        let per_row = size * &roundoff / determinant.abs();
+        let [of_t, of_u, of_v] = rows.map(|row| sum_of_magnitudes(&row) * &per_row);
         Allowed {
             exact,
-            unit,
-            edge_squared: edge(&ab).larger(edge(&ac)).larger(edge(&c.minus(b))),
-            direction_squared: d.dot(d),
+            unit: [of_t, of_u.larger(roundoff.clone()), of_v.larger(roundoff)],
+            edge_squared: square(&ab).larger(square(&ac)).larger(square(&bc)),
+            direction_squared: square(d),
             least: F::from_place(1).to_f64(),
-            number,
         }
     }
 
     /// True if a value is as near as rounding may leave it, or as near as a contract tolerates.
     fn admits(&self, which: usize, value: R, tolerance: f64) -> bool {
         let off = (value - &self.exact[which]).abs();
-        let allowed = (self.number)(ALLOWANCE) * &self.unit[which];
+        let allowed = R::number(ALLOWANCE) * &self.unit[which];
+        if off.is_at_most(&allowed) {
+            return true;
+        }
         // Far above the least number of f64, of which bounded numbers know nothing.
-        let tiny = (self.number)(2.0f64.powi(-140));
-        off.is_at_most(&allowed)
-            || off.is_at_most(&tiny) && off.is_at_most(&(self.number)(self.least))
-            || 0.0 < tolerance && self.is_within(which, &off, tolerance)
+        let tiny = R::number(2.0f64.powi(-140));
+        if off.is_at_most(&tiny) && off.is_at_most(&R::number(self.least)) {
+            return true;
+        }
+        0.0 < tolerance && self.is_within(which, &off, tolerance)
     }
 
-    /// The same of several values of a hit.
+    /// True if several values of a hit are all admitted.
     pub(super) fn admits_all(&self, values: &[(usize, f64)], tolerance: f64) -> bool {
         values
             .iter()
-            .all(|&(which, value)| self.admits(which, (self.number)(value), tolerance))
+            .all(|&(which, value)| self.admits(which, R::number(value), tolerance))
     }
 
     /// True if an error moves the point by at most so many longest edges, or a weight by at most so much.
@@ -118,13 +95,36 @@ impl<R: Real> Allowed<R> {
         if edges == f64::INFINITY {
             return true;
         }
-        let edges = (self.number)(edges);
+        let edges = R::number(edges);
         if which != 0 {
             return off.is_at_most(&edges);
         }
         let moved = off.clone() * off * &self.direction_squared;
         moved.is_at_most(&(edges.clone() * &edges * &self.edge_squared))
     }
+}
+
+/// M: the largest coordinate of |w·a| + |u·b| + |v·c| + |o| + |t·d|.
+fn size_of_terms<R: Real>(
+    ray: &Ray<Triple<R>>,
+    triangle: &Triangle<Triple<R>>,
+    [t, u, v]: &[R; 3],
+) -> R {
+    let Triangle { a, b, c } = triangle;
+    let w = R::one() - u - v;
+    let terms = [(a, &w), (b, u), (c, v), (&ray.direction, t)];
+    let [x, y, z] = [0, 1, 2].map(|axis| {
+        let mut sum = ray.origin.at(axis).abs();
+        for (vector, factor) in terms {
+            sum = sum + (vector.at(axis) * factor).abs();
+        }
+        sum
+    });
+    x.larger(y).larger(z)
+}
+
+fn sum_of_magnitudes<R: Real>(v: &Triple<R>) -> R {
+    v.at(0).abs() + v.at(1).abs() + v.at(2).abs()
 }
 
 /// Half the distance from 1 to the next number of a scalar.
@@ -136,15 +136,17 @@ fn given(gives: Gives) -> [bool; 3] {
     [gives.t, gives.uv, gives.uv]
 }
 
-/// Those of t, u and v (0, 1 and 2) that a kernel gives; not a t that is rightly infinite, which is as near as a number can
+/// The values among t, u and v (0, 1 and 2) that a kernel gives; not a t that is rightly infinite, which is as near as a number can
 /// be.
 pub(super) fn given_values<F: Float>(gives: Gives, verdict: &Verdict<F>) -> Vec<(usize, f64)> {
-    let values = [verdict.t, verdict.u, verdict.v]
-        .map(F::to_f64)
-        .into_iter()
-        .enumerate();
-    let finite = values.filter(|(_, value)| value.is_finite());
-    finite.filter(|(which, _)| given(gives)[*which]).collect()
+    let is_given = given(gives);
+    let mut values = Vec::with_capacity(3);
+    for (which, value) in [verdict.t, verdict.u, verdict.v].into_iter().enumerate() {
+        if is_given[which] && value.is_finite() {
+            values.push((which, value.to_f64()));
+        }
+    }
+    values
 }
 
 /// True if each value that the kernel gives is as near to its exact one as rounding may leave it, or as a contract
@@ -156,8 +158,8 @@ pub(super) fn are_near<F: Float>(
     tolerance: f64,
 ) -> bool {
     let values = given_values(gives, verdict);
-    let in_bounds = bounded(|| Allowed::of(case, Bounded::new).admits_all(&values, tolerance));
-    in_bounds.unwrap_or_else(|| Allowed::of(case, Exact::from_f64).admits_all(&values, tolerance))
+    let in_bounds = bounded(|| Allowed::<Bounded>::of(case).admits_all(&values, tolerance));
+    in_bounds.unwrap_or_else(|| Allowed::<Exact>::of(case).admits_all(&values, tolerance))
 }
 
 /// True if a t is an infinity to which the exact t of a hit rounds: it is as far beyond the largest number as half of that
@@ -167,45 +169,41 @@ pub fn rounds_to_infinity<F: Float>(case: &Case<F>, truth: &Truth, t: F) -> bool
         return false;
     }
     let largest = F::infinity().offset_ulps(-1);
-    let half = Exact::from_f64(largest.ulp().to_f64()) / Exact::from_f64(2.0);
-    let limit = Exact::from_f64(largest.to_f64()) + half;
-    let [exact, ..] = Allowed::of(case, Exact::from_f64).exact;
-    let exact = if t < F::zero() { -exact } else { exact };
-    limit.is_at_most(&exact)
+    let last_place = Exact::from_f64(largest.ulp().to_f64());
+    let limit = Exact::from_f64(largest.to_f64()) + last_place / Exact::from_f64(2.0);
+    let [exact, ..] = Allowed::<Exact>::of(case).exact;
+    let toward_infinity = if t < F::zero() { -exact } else { exact };
+    limit.is_at_most(&toward_infinity)
 }
 
-/// True if what a kernel's formula gives without rounding is as near.
+/// True if the values that a kernel's formula gives without rounding are as near as those of a hit have to be.
 pub fn exact_values_are_near<F: Float>(
     case: &Case<F>,
     gives: Gives,
     hit: Hit<Exact>,
     tolerance: f64,
 ) -> bool {
-    let allowed = Allowed::of(case, Exact::from_f64);
-    let (u, v) = hit.uv.map_or((None, None), |(u, v)| (Some(u), Some(v)));
-    let values = [hit.t, u, v].into_iter().zip(given(gives)).enumerate();
-    let near =
-        |value: Option<Exact>, which| value.is_some_and(|x| allowed.admits(which, x, tolerance));
-    values
-        .into_iter()
-        .all(|(which, (value, given))| !given || near(value, which))
+    let allowed = Allowed::<Exact>::of(case);
+    let is_given = given(gives);
+    let (u, v) = hit.uv.unzip();
+    let mut values = [hit.t, u, v].into_iter().enumerate();
+    values.all(|(which, value)| {
+        !is_given[which] || value.is_some_and(|value| allowed.admits(which, value, tolerance))
+    })
 }
 
 /// The error of the worst value of a hit, in multiples of u·κ; infinite if a value has no unit. The hit has finite values,
 /// and its line crosses the plane.
 pub fn exact_times<F: Float>(case: &Case<F>, gives: Gives, verdict: &Verdict<F>) -> Exact {
-    let allowed = Allowed::of(case, Exact::from_f64);
-    let times = given_values(gives, verdict)
-        .into_iter()
-        .map(|(which, value)| {
-            let off = (Exact::from_f64(value) - &allowed.exact[which]).abs();
-            if off.is_zero() {
-                off
-            } else {
-                off / &allowed.unit[which]
-            }
-        });
-    times.fold(Exact::from_f64(0.0), Exact::larger)
+    let allowed = Allowed::<Exact>::of(case);
+    let mut worst = Exact::from_f64(0.0);
+    for (which, value) in given_values(gives, verdict) {
+        let off = (Exact::from_f64(value) - &allowed.exact[which]).abs();
+        if !off.is_zero() {
+            worst = worst.larger(off / &allowed.unit[which]);
+        }
+    }
+    worst
 }
 
 /// How far the values of a hit are off, on a line that crosses the plane.
@@ -217,7 +215,7 @@ pub struct ValueErrors {
     pub times: [Option<f64>; 3],
     /// How far the point is off in longest edges: along the ray by t, or in the plane by u or v.
     pub edges: f64,
-    /// The same of each value.
+    /// How far each value is off in longest edges.
     by_value: [f64; 3],
 }
 
@@ -225,202 +223,78 @@ impl ValueErrors {
     /// The errors of a hit with finite values.
     pub fn of<F: Float>(case: &Case<F>, truth: &Truth, gives: Gives, verdict: &Verdict<F>) -> Self {
         let values = [verdict.t, verdict.u, verdict.v].map(F::to_f64);
-        let measured = measure(case, values, Bounded::new, Bounded::approximate);
-        let (exact, off, times) = measured.unwrap_or_else(|| {
+        let in_bounds = measure(case, values, Bounded::approximate);
+        let Measured { exact, off, times } = in_bounds.unwrap_or_else(|| {
             let float = |x: &Exact| Some(x.approximate());
-            measure(case, values, Exact::from_f64, float).expect("always a number")
+            measure(case, values, float).expect("always a number")
         });
         let longest = Distances::of(case, truth).edge_in_ulps * ulp_of_points(case).to_f64();
         let direction = length(case.widen().vectors()[1]);
-        let edges = [off[0] / longest * direction, off[1], off[2]];
-        let given = given(gives);
-        let worst = (0..3)
-            .filter(|i| given[*i])
-            .map(|i| edges[i])
-            .fold(0.0, f64::max);
-        let times = array::from_fn(|i| given[i].then_some(times[i]));
-        ValueErrors {
+        let [off_t, off_u, off_v] = off;
+        let mut errors = ValueErrors {
             exact,
-            times,
-            edges: worst,
-            by_value: edges,
+            times: [None; 3],
+            edges: 0.0,
+            by_value: [off_t / longest * direction, off_u, off_v],
+        };
+        for (which, is_given) in given(gives).into_iter().enumerate() {
+            if is_given {
+                errors.times[which] = Some(times[which]);
+                errors.edges = errors.edges.max(errors.by_value[which]);
+            }
         }
+        errors
     }
 
     /// True if t, u or v (0, 1 or 2) is farther off than rounding explains and a contract tolerates.
     pub fn is_wrong(&self, which: usize, tolerance: f64) -> bool {
-        let is_within = self.by_value[which] <= tolerance;
-        self.times[which].is_some_and(|times| ALLOWANCE < times) && !is_within
+        let is_tolerated = self.by_value[which] <= tolerance;
+        self.times[which].is_some_and(|times| ALLOWANCE < times) && !is_tolerated
     }
 }
 
-/// The exact values, how far those of a hit are off, and in multiples of u·κ.
+/// The values of a hit, measured; 0 where a value is not finite.
+#[derive(Default)]
+struct Measured {
+    exact: [f64; 3],
+    /// How far each value is from its exact one.
+    off: [f64; 3],
+    /// By how many times u·κ.
+    times: [f64; 3],
+}
+
+/// Measures the values of a hit in an arithmetic that does not round; none where a number is not known as a float.
 fn measure<F: Float, R: Real>(
     case: &Case<F>,
     values: [f64; 3],
-    number: fn(f64) -> R,
     float: impl Fn(&R) -> Option<f64>,
-) -> Option<([f64; 3], [f64; 3], [f64; 3])> {
-    let allowed = Allowed::of(case, number);
-    let mut all = ([0.0; 3], [0.0; 3], [0.0; 3]);
+) -> Option<Measured> {
+    let allowed = Allowed::of(case);
+    let mut measured = Measured::default();
     for (which, value) in values.into_iter().enumerate() {
-        all.0[which] = float(&allowed.exact[which])?;
-        if value.is_finite() {
-            let off = (number(value) - &allowed.exact[which]).abs();
-            all.1[which] = float(&off)?;
-            let unit = &allowed.unit[which];
-            // A t that is 0 whatever rounds has no unit.
-            all.2[which] = match (unit.is_zero(), all.1[which]) {
-                (true, 0.0) => 0.0,
-                (true, _) => f64::INFINITY,
-                (false, _) => float(&(off / unit))?,
-            };
+        let exact = &allowed.exact[which];
+        measured.exact[which] = float(exact)?;
+        if !value.is_finite() {
+            continue;
         }
+        let off = (R::number(value) - exact).abs();
+        measured.off[which] = float(&off)?;
+        let unit = &allowed.unit[which];
+        measured.times[which] = if !unit.is_zero() {
+            float(&(off / unit))?
+        } else if measured.off[which] == 0.0 {
+            0.0
+        } else {
+            // A t that is 0 whatever rounds has no unit.
+            f64::INFINITY
+        };
     }
-    Some(all)
+    Some(measured)
 }
 
 /// The length of a vector, without overflow on the way.
 pub(super) fn length(v: [f64; 3]) -> f64 {
     let largest = v.into_iter().map(f64::abs).fold(0.0, f64::max);
-    largest
-        * v.into_iter()
-            .map(|x| (x / largest).powi(2))
-            .sum::<f64>()
-            .sqrt()
-}
-
-/// Ranges in which t, u and v of a hit are surely right. Beyond these numbers `are_near` decides.
-#[derive(Clone, Copy, Debug)]
-pub struct ValueLimits<F> {
-    /// The least t, u and v.
-    pub low: [F; 3],
-    /// The largest t, u and v.
-    pub high: [F; 3],
-}
-
-impl<F: Float> ValueLimits<F> {
-    /// Every finite number.
-    fn any() -> Self {
-        let largest = F::infinity().offset_ulps(-1);
-        ValueLimits {
-            low: [-largest; 3],
-            high: [largest; 3],
-        }
-    }
-
-    /// No number.
-    fn none() -> Self {
-        ValueLimits {
-            low: [F::infinity(); 3],
-            high: [-F::infinity(); 3],
-        }
-    }
-
-    /// The ranges for a case with its truth.
-    pub fn of(case: &Case<F>, truth: &Truth) -> Self {
-        if !has_values(truth) {
-            return ValueLimits::any();
-        }
-        let found = quick(&case.widen(), roundoff::<F>()).or_else(|| {
-            let Allowed { exact, unit, .. } = Allowed::of(case, Bounded::new);
-            let mut found = [(0.0, 0.0); 3];
-            for i in 0..3 {
-                // Each is known to a millionth of itself at least; what that leaves open is taken off.
-                let off = ALLOWANCE * unit[i].approximate()? * (1.0 - 1e-5);
-                found[i] = (exact[i].known_to(off * 1e-5)?, off * (1.0 - 1e-5));
-            }
-            Some(found)
-        });
-        found.map_or_else(ValueLimits::none, |found| {
-            let mut limits = ValueLimits::any();
-            for (i, (value, off)) in found.into_iter().enumerate() {
-                // Each is rounded once or twice, by less than what is taken off here.
-                let off = off - (value.abs() + off) * (4.0 * f64::EPSILON);
-                let (low, high) = (F::from_f64(value - off), F::from_f64(value + off));
-                let inside = |x: F, ulps| {
-                    if x.is_finite() {
-                        x.offset_ulps(ulps)
-                    } else {
-                        x
-                    }
-                };
-                limits.low[i] = if low.to_f64() < value - off {
-                    inside(low, 1)
-                } else {
-                    low
-                };
-                limits.high[i] = if high.to_f64() > value + off {
-                    inside(high, -1)
-                } else {
-                    high
-                };
-                if !(limits.low[i].is_finite() && limits.high[i].is_finite()) {
-                    return ValueLimits::none();
-                }
-            }
-            limits
-        })
-    }
-}
-
-/// In floats: each value, and how far from it a kernel's value surely may be; none where that is not known well.
-fn quick(case: &Case<f64>, roundoff: f64) -> Option<[(f64, f64); 3]> {
-    /// Products of four numbers of this size neither overflow nor underflow.
-    const LARGEST: f64 = (1u128 << 127) as f64 * (1u128 << 73) as f64;
-    let vectors = case.vectors();
-    let size = vectors.as_flattened().iter().map(|x| x.abs());
-    if !size
-        .clone()
-        .all(|x| x == 0.0 || (1.0 / LARGEST..=LARGEST).contains(&x))
-    {
-        return None;
-    }
-    let [o, d, a, b, c] = vectors.map(DVec3::from);
-    let (ab, ac, start) = (b - a, c - a, a - o);
-    // A cross product, and the same with all signs dropped.
-    let cross = |p: DVec3, q: DVec3| {
-        let (left, right) = (p.yzx() * q.zxy(), p.zxy() * q.yzx());
-        (left - right, left.abs() + right.abs())
-    };
-    let rows = [cross(ab, ac), cross(d, ac), cross(ab, d)];
-    let determinant = d.dot(rows[0].0).abs();
-    let sign = if d.dot(rows[0].0) < 0.0 { -1.0 } else { 1.0 };
-    // Differences, products and sums: at most eight roundings of half an epsilon on the way to each term.
-    let error = 4.0 * f64::EPSILON;
-    let determinant_error = error * d.abs().dot(rows[0].1);
-    let least = determinant - determinant_error;
-    // False of NaN too.
-    let is_known = determinant / 2.0 < least;
-    if !is_known {
-        return None;
-    }
-    let values = rows.map(|(row, _)| sign * row.dot(start) / determinant);
-    let errors: [f64; 3] = array::from_fn(|i| {
-        let numerator = error * rows[i].1.dot(start.abs());
-        (numerator + values[i].abs() * determinant_error) / least + error * values[i].abs()
-    });
-    let [t, u, v] = values;
-    let w = 1.0 - u - v;
-    let largest = |p: DVec3| p.abs().max_element();
-    let sizes = (w * a).abs() + (u * b).abs() + (v * c).abs() + o.abs() + (t * d).abs();
-    // The weights' errors move each term by no more than this.
-    let moved = (errors[1] + errors[2] + error) * (largest(a) + largest(b) + largest(c))
-        + errors[0] * largest(d);
-    let size = (largest(sizes) * (1.0 - error) - moved).max(0.0);
-    let mut found = [(0.0, 0.0); 3];
-    for i in 0..3 {
-        let (row, permanents) = (rows[i].0.abs(), rows[i].1);
-        let row = (row.element_sum() - error * permanents.element_sum()).max(0.0);
-        let unit = roundoff * size * row / (determinant + determinant_error);
-        let unit = if i == 0 { unit } else { unit.max(roundoff) };
-        let off = ALLOWANCE * unit * (1.0 - 1e-9) - errors[i];
-        // Most values of kernels are off by less than twice this unit. A limit of 0 is one.
-        let is_known = 2.0 * unit <= off;
-        if !is_known {
-            return None;
-        }
-        found[i] = (values[i], off);
-    }
-    Some(found)
+    let squares = v.map(|x| (x / largest).powi(2));
+    largest * squares.into_iter().sum::<f64>().sqrt()
 }

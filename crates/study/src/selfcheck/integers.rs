@@ -6,17 +6,26 @@
 //! t: of a line in the triangle's plane the part inside its three edges, seen along an axis; of a
 //! triangle without area where the line meets the segment between its outermost vertices.
 
+mod numbers;
+
 use crate::case::Case;
 use crate::truth::{Contact, ContactKind, Crossing, Facing, Feature, Place, Truth};
 use num_bigint::BigInt;
-use num_traits::{Float as _, RefNum, Signed, ToPrimitive};
-use std::cmp::Ordering;
+use num_traits::RefNum;
+use numbers::{Digits, Integer, IntegerFraction, IntegerPoint, cross, dot, is_zero, minus, sign};
+use std::cmp::Ordering::{self, Equal, Greater, Less};
 
-type IntegerPoint<I> = [I; 3];
+/// A range of t.
+struct Range<I> {
+    low: IntegerFraction<I>,
+    high: IntegerFraction<I>,
+}
 
-/// A fraction with a positive denominator; 1/0 and -1/0 are the infinite ends of an interval.
-#[derive(Clone)]
-struct IntegerFraction<I>(I, I);
+/// A function that is linear in t.
+struct Linear<I> {
+    constant: I,
+    slope: I,
+}
 
 /// A case in integers.
 pub(super) struct Integers<I> {
@@ -35,82 +44,54 @@ const WIDE: i64 = 39;
 
 /// The truth of a case, and its t (or that of a contact's end) as a nearby float.
 pub(super) fn truth(case: &Case<f64>) -> (Truth, Option<f64>) {
-    let vectors = case.vectors();
-    let finite = vectors.as_flattened().iter().all(|x| x.is_finite());
-    let (t_min, t_max) = (case.ray.t_min, case.ray.t_max);
-    if !finite || t_min.is_nan() || t_max.is_nan() || t_min > t_max || vectors[1] == [0.0; 3] {
+    if !is_valid(case) {
         return (Truth::Invalid, None);
     }
-    let parts = vectors.map(|v| v.map(digits));
-    let nonzero = || parts.as_flattened().iter().filter(|(odd, _)| *odd != 0);
-    let grid = nonzero().map(|(_, exponent)| *exponent).min().unwrap_or(0);
-    let bits = nonzero()
-        .map(|part| length(*part) - grid)
-        .max()
-        .unwrap_or(0);
-    let shifted = |(odd, exponent)| {
-        if odd == 0 {
-            (0, 0)
-        } else {
-            (odd, exponent - grid)
-        }
-    };
-    let parts = parts.map(|point| point.map(shifted));
-    let ends = [t_min, t_max];
-    let short = |t: f64| t.is_infinite() || length(digits(t)).max(-digits(t).1) <= NARROW;
-    let narrow = |odd: i64, shift: i64| i128::from(odd) << shift;
-    if bits <= NARROW && ends.into_iter().all(short) {
-        return Integers::new(parts, ends, narrow).truth();
+    let floats = case.vectors().map(|vector| vector.map(Digits::of));
+    let nonzero = || floats.as_flattened().iter().filter(|x| x.odd != 0);
+    // All coordinates are multiples of 2 to this power.
+    let grid = nonzero().map(|x| x.exponent).min().expect("a direction");
+    let top = nonzero().map(|x| x.length()).max().expect("a direction");
+    let bits = top - grid;
+    let integers = floats.map(|vector| vector.map(|x| x.in_units_of(grid)));
+    let ends = [case.ray.t_min, case.ray.t_max];
+    if bits <= NARROW && ends.into_iter().all(is_short) {
+        return Integers::<i128>::new(integers, ends).truth();
     }
     if bits <= WIDE
         && ends == [0.0, f64::INFINITY]
-        && let Some(found) = Integers::new(parts, ends, narrow).crossing()
+        && let Some(found) = Integers::<i128>::new(integers, ends).crossing()
     {
         return found;
     }
-    Integers::new(parts, ends, |odd, shift| BigInt::from(odd) << shift).truth()
+    Integers::<BigInt>::new(integers, ends).truth()
 }
 
-/// A finite float as an odd integer, or zero, times a power of two.
-fn digits(x: f64) -> (i64, i64) {
-    let (mantissa, exponent, sign) = x.integer_decode();
-    if mantissa == 0 {
-        return (0, 0);
+fn is_valid(case: &Case<f64>) -> bool {
+    let vectors = case.vectors();
+    let is_finite = vectors.as_flattened().iter().all(|x| x.is_finite());
+    // False of NaN too.
+    let is_interval = case.ray.t_min <= case.ray.t_max;
+    is_finite && is_interval && vectors[1] != [0.0; 3]
+}
+
+/// True if an end of an interval has so few bits that products with it fit.
+fn is_short(t: f64) -> bool {
+    if t.is_infinite() {
+        return true;
     }
-    let zeros = mantissa.trailing_zeros();
-    (
-        (mantissa >> zeros) as i64 * i64::from(sign),
-        i64::from(exponent) + i64::from(zeros),
-    )
+    let digits = Digits::of(t);
+    digits.length() <= NARROW && -digits.exponent <= NARROW
 }
 
-/// The number of bits before the binary point.
-fn length((odd, exponent): (i64, i64)) -> i64 {
-    i64::from(64 - odd.unsigned_abs().leading_zeros()) + exponent
-}
-
-impl<I: Signed + Ord + Clone + ToPrimitive> Integers<I>
+impl<I: Integer> Integers<I>
 where
     for<'a> &'a I: RefNum<I>,
 {
-    /// From numbers and exponents that are not negative, and an interval.
-    fn new(
-        parts: [IntegerPoint<(i64, i64)>; 5],
-        ends: [f64; 2],
-        integer: impl Fn(i64, i64) -> I,
-    ) -> Self {
-        let end = |t: f64| {
-            let (odd, exponent) = digits(t);
-            match t {
-                f64::NEG_INFINITY => IntegerFraction(-I::one(), I::zero()),
-                f64::INFINITY => IntegerFraction(I::one(), I::zero()),
-                _ if exponent < 0 => IntegerFraction(integer(odd, 0), integer(1, -exponent)),
-                _ => IntegerFraction(integer(odd, exponent), I::one()),
-            }
-        };
-        let [t_min, t_max] = ends.map(end);
-        let number = |(odd, shift)| integer(odd, shift);
-        let [o, d, vertices @ ..] = parts.map(|point| point.map(number));
+    /// The case from numbers whose exponents are not negative, and an interval.
+    fn new(vectors: [[Digits; 3]; 5], ends: [f64; 2]) -> Integers<I> {
+        let [o, d, vertices @ ..] = vectors.map(|vector| vector.map(Digits::integer));
+        let [t_min, t_max] = ends.map(IntegerFraction::of);
         Integers {
             o,
             d,
@@ -121,14 +102,13 @@ where
     }
 
     /// A case on the lattice, on [0, inf).
-    pub fn of_lattice([o, d, vertices @ ..]: [IntegerPoint<I>; 5]) -> Self {
-        let t_min = IntegerFraction(I::zero(), I::one());
+    pub fn of_lattice([o, d, vertices @ ..]: [IntegerPoint<I>; 5]) -> Integers<I> {
         Integers {
             o,
             d,
             vertices,
-            t_min,
-            t_max: IntegerFraction(I::one(), I::zero()),
+            t_min: IntegerFraction::new(I::zero(), I::one()),
+            t_max: IntegerFraction::new(I::one(), I::zero()),
         }
     }
 
@@ -139,48 +119,47 @@ where
     /// The truth where the line is not parallel to the plane.
     fn crossing(&self) -> Option<(Truth, Option<f64>)> {
         let [a, b, c] = &self.vertices;
-        let (e, f, s) = (minus(b, a), minus(c, a), minus(&self.o, a));
+        let e = minus(b, a);
+        let f = minus(c, a);
+        let s = minus(&self.o, a);
         let n = cross(&e, &f);
-        let capital_d = dot(&self.d, &n);
-        if capital_d.is_zero() {
+        let along_normal = dot(&self.d, &n);
+        if along_normal.is_zero() {
             return None;
         }
         // The determinants of (-d, e, f), (s, e, f), (-d, s, f), (-d, e, s), the first made positive.
-        let front = capital_d.is_negative();
-        let positive = |x: I| if front { x } else { -x };
-        let whole = positive(-capital_d);
+        let is_front = along_normal.is_negative();
+        let positive = |x: I| if is_front { x } else { -x };
+        let whole = positive(-along_normal);
         let t = positive(dot(&s, &n));
         let u = positive(dot(&self.d, &cross(&f, &s)));
         let v = positive(dot(&self.d, &cross(&s, &e)));
-        let rest = &(&whole - &u) - &v;
-        let feature = match [&rest, &u, &v].map(sign) {
-            [Ordering::Less, ..] | [_, Ordering::Less, _] | [.., Ordering::Less] => {
-                Feature::Outside
-            }
-            [Ordering::Greater, Ordering::Greater, Ordering::Greater] => Feature::Interior,
-            [Ordering::Equal, Ordering::Greater, Ordering::Greater] => Feature::EdgeBc,
-            [Ordering::Greater, Ordering::Equal, Ordering::Greater] => Feature::EdgeCa,
-            [Ordering::Greater, Ordering::Greater, Ordering::Equal] => Feature::EdgeAb,
-            [Ordering::Greater, ..] => Feature::VertexA,
-            [_, Ordering::Greater, _] => Feature::VertexB,
-            _ => Feature::VertexC,
+        let w = &(&whole - &u) - &v;
+        let t_sign = sign(&t);
+        let t = IntegerFraction::new(t, whole);
+        let facing = if is_front {
+            Facing::Front
+        } else {
+            Facing::Back
         };
-        let t = IntegerFraction(t, whole);
-        let place = match (t.compare(&self.t_min), t.compare(&self.t_max)) {
-            (Ordering::Less, _) => Place::Before,
-            (Ordering::Equal, _) => Place::AtMin,
-            (_, Ordering::Greater) => Place::Beyond,
-            (_, Ordering::Equal) => Place::AtMax,
-            _ => Place::Within,
-        };
-        let facing = if front { Facing::Front } else { Facing::Back };
         let crossing = Crossing {
             facing,
-            place,
-            t_sign: sign(&t.0),
-            feature,
+            place: self.place(&t),
+            t_sign,
+            feature: feature_by_signs([w, u, v].each_ref().map(sign)),
         };
         Some((Truth::Transversal(crossing), t.near()))
+    }
+
+    /// The place of a crossing's t against the interval.
+    fn place(&self, t: &IntegerFraction<I>) -> Place {
+        match (t.compare(&self.t_min), t.compare(&self.t_max)) {
+            (Less, _) => Place::Before,
+            (Equal, _) => Place::AtMin,
+            (_, Greater) => Place::Beyond,
+            (_, Equal) => Place::AtMax,
+            _ => Place::Within,
+        }
     }
 
     /// The truth where the line is parallel to the plane, or there is none.
@@ -188,57 +167,57 @@ where
         let [a, b, c] = &self.vertices;
         let n = cross(&minus(b, a), &minus(c, a));
         let Some(axis) = n.iter().position(|x| !x.is_zero()) else {
-            let range = self.range_of_segment();
-            let contact = self.cut(&range, |t| self.feature_on_segment(t));
-            return (
-                Truth::Degenerate(contact),
-                range.and_then(|range| range[1].near()),
-            );
+            let (contact, end) = self.cut(self.range_of_segment(), |t| self.feature_on_segment(t));
+            return (Truth::Degenerate(contact), end);
         };
         if !dot(&n, &minus(&self.o, a)).is_zero() {
             return (Truth::Parallel, None);
         }
         let edges = self.edges(axis, n[axis].is_negative());
-        let range = Self::range_inside(&edges);
-        let contact = self.cut(&range, |t| Self::feature_in_plane(&edges, t));
-        (
-            Truth::Coplanar(contact),
-            range.and_then(|range| range[1].near()),
-        )
+        let (contact, end) = self.cut(Self::range_inside(&edges), |t| {
+            Self::feature_in_plane(&edges, t)
+        });
+        (Truth::Coplanar(contact), end)
     }
 
-    /// For each edge ab, bc, ca, seen along an axis: the constant and the slope in t of twice the area
-    /// that the edge spans with the line's point, positive inside.
-    fn edges(&self, axis: usize, clockwise: bool) -> [(I, I); 3] {
-        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+    /// For each edge ab, bc, ca, seen along an axis: twice the area that the edge spans with the line's point, positive
+    /// inside.
+    fn edges(&self, axis: usize, is_clockwise: bool) -> [Linear<I>; 3] {
+        let i = (axis + 1) % 3;
+        let j = (axis + 2) % 3;
         [(0, 1), (1, 2), (2, 0)].map(|(from, to)| {
-            let (from, to) = (&self.vertices[from], &self.vertices[to]);
-            let (x, y) = (&to[i] - &from[i], &to[j] - &from[j]);
+            let from = &self.vertices[from];
+            let to = &self.vertices[to];
+            let x = &to[i] - &from[i];
+            let y = &to[j] - &from[j];
             let constant = &x * &(&self.o[j] - &from[j]) - &y * &(&self.o[i] - &from[i]);
             let slope = &x * &self.d[j] - &y * &self.d[i];
-            if clockwise {
-                (-constant, -slope)
+            let [constant, slope] = if is_clockwise {
+                [-constant, -slope]
             } else {
-                (constant, slope)
-            }
+                [constant, slope]
+            };
+            Linear { constant, slope }
         })
     }
 
     /// The t between which the line runs through a triangle without area.
-    fn range_of_segment(&self) -> Option<[IntegerFraction<I>; 2]> {
+    fn range_of_segment(&self) -> Option<Range<I>> {
         // The outermost of points on one line are the first and the last by x, then y, then z.
-        let (p, q) = (self.vertices.iter().min()?, self.vertices.iter().max()?);
+        let p = self.vertices.iter().min()?;
+        let q = self.vertices.iter().max()?;
+        // An axis along which the line moves.
         let m = self.d.iter().position(|x| !x.is_zero())?;
         let [x, y] = [p, q].map(|v| cross(&minus(v, &self.o), &self.d));
-        let is_zero = |v: &IntegerPoint<I>| v.iter().all(|x| x.is_zero());
         if is_zero(&x) && is_zero(&y) {
             let [s, t] =
                 [p, q].map(|v| IntegerFraction::new(&v[m] - &self.o[m], self.d[m].clone()));
-            return Some(if s.compare(&t).is_le() {
-                [s, t]
+            let (low, high) = if s.compare(&t).is_le() {
+                (s, t)
             } else {
-                [t, s]
-            });
+                (t, s)
+            };
+            return Some(Range { low, high });
         }
         // x + s (y-x) = 0 for an s in [0, 1]: x and y opposite, or one of them zero.
         if !is_zero(&cross(&x, &y)) || dot(&x, &y).is_positive() {
@@ -248,159 +227,112 @@ where
         let whole = &x[k] - &y[k];
         let along = &whole * &(&p[m] - &self.o[m]) + &x[k] * &(&q[m] - &p[m]);
         let t = IntegerFraction::new(along, &whole * &self.d[m]);
-        Some([t.clone(), t])
+        Some(Range {
+            low: t.clone(),
+            high: t,
+        })
     }
 
     /// The feature of a triangle without area at a point of the line that lies on it.
-    fn feature_on_segment(&self, IntegerFraction(t, whole): &IntegerFraction<I>) -> Feature {
-        // o + t d against a vertex, coordinate by coordinate.
-        let order = |vertex: &IntegerPoint<I>| {
-            let by_axis =
-                (0..3).map(|i| (&self.o[i] * whole + &self.d[i] * t).cmp(&(&vertex[i] * whole)));
-            by_axis.fold(Ordering::Equal, Ordering::then)
-        };
-        match self.vertices.each_ref().map(order) {
-            [Ordering::Equal, ..] => Feature::VertexA,
-            [_, Ordering::Equal, _] => Feature::VertexB,
-            [.., Ordering::Equal] => Feature::VertexC,
+    fn feature_on_segment(&self, t: &IntegerFraction<I>) -> Feature {
+        match self.vertices.each_ref().map(|v| self.compare_at(t, v)) {
+            [Equal, ..] => Feature::VertexA,
+            [_, Equal, _] => Feature::VertexB,
+            [.., Equal] => Feature::VertexC,
             [a, b, _] if a != b => Feature::EdgeAb,
             [_, b, c] if b != c => Feature::EdgeBc,
             _ => Feature::EdgeCa,
         }
     }
 
-    /// A range of t cut to the interval.
+    /// The order of the line's point o + t d and a vertex, by x, then y, then z.
+    fn compare_at(&self, t: &IntegerFraction<I>, vertex: &IntegerPoint<I>) -> Ordering {
+        for (i, coordinate) in vertex.iter().enumerate() {
+            let of_line = &self.o[i] * &t.denominator + &self.d[i] * &t.numerator;
+            let order = of_line.cmp(&(coordinate * &t.denominator));
+            if order.is_ne() {
+                return order;
+            }
+        }
+        Equal
+    }
+
+    /// The contact of a line that runs through the triangle in a range of t, and the end of that range as a float.
     fn cut(
         &self,
-        range: &Option<[IntegerFraction<I>; 2]>,
+        range: Option<Range<I>>,
         feature: impl Fn(&IntegerFraction<I>) -> Feature,
-    ) -> Contact {
-        let Some([low, high]) = range else {
-            return Contact {
+    ) -> (Contact, Option<f64>) {
+        let Some(Range { low, high }) = range else {
+            let none = Contact {
                 kind: ContactKind::None,
                 meets_ray: false,
                 meets_line: false,
             };
+            return (none, None);
         };
-        let first = if low.compare(&self.t_min).is_lt() {
-            &self.t_min
-        } else {
-            low
-        };
-        let last = if high.compare(&self.t_max).is_gt() {
-            &self.t_max
-        } else {
-            high
-        };
+        let starts_before = low.compare(&self.t_min).is_lt();
+        let first = if starts_before { &self.t_min } else { &low };
+        let ends_beyond = high.compare(&self.t_max).is_gt();
+        let last = if ends_beyond { &self.t_max } else { &high };
         let kind = match first.compare(last) {
-            Ordering::Less => ContactKind::Segment,
-            Ordering::Equal => ContactKind::Point(feature(first)),
-            Ordering::Greater => ContactKind::None,
+            Less => ContactKind::Segment,
+            Equal => ContactKind::Point(feature(first)),
+            Greater => ContactKind::None,
         };
-        Contact {
+        let contact = Contact {
             kind,
-            meets_ray: !high.0.is_negative(),
+            meets_ray: !high.numerator.is_negative(),
             meets_line: true,
-        }
+        };
+        (contact, high.near())
     }
 
-    /// The t at which three functions, linear in t, are all at least zero.
-    fn range_inside(edges: &[(I, I); 3]) -> Option<[IntegerFraction<I>; 2]> {
-        let (mut low, mut high): (Option<IntegerFraction<I>>, Option<IntegerFraction<I>>) =
-            (None, None);
-        for (constant, slope) in edges {
+    /// The t at which the functions of all three edges are at least zero.
+    fn range_inside(edges: &[Linear<I>; 3]) -> Option<Range<I>> {
+        let mut low: Option<IntegerFraction<I>> = None;
+        let mut high: Option<IntegerFraction<I>> = None;
+        for Linear { constant, slope } in edges {
             if slope.is_zero() {
                 if constant.is_negative() {
                     return None;
                 }
                 continue;
             }
-            let bound = IntegerFraction::new(-constant.clone(), slope.clone());
-            let (end, tighter) = if slope.is_positive() {
-                (&mut low, Ordering::Less)
-            } else {
-                (&mut high, Ordering::Greater)
-            };
-            if end
-                .as_ref()
-                .is_none_or(|end| end.compare(&bound) == tighter)
-            {
-                *end = Some(bound);
+            let zero = IntegerFraction::new(-constant.clone(), slope.clone());
+            if slope.is_positive() {
+                if low.as_ref().is_none_or(|low| low.compare(&zero).is_lt()) {
+                    low = Some(zero);
+                }
+            } else if high.as_ref().is_none_or(|high| high.compare(&zero).is_gt()) {
+                high = Some(zero);
             }
         }
-        let (low, high) = (low?, high?);
-        low.compare(&high).is_le().then_some([low, high])
+        let low = low?;
+        let high = high?;
+        low.compare(&high).is_le().then_some(Range { low, high })
     }
 
-    /// The feature at a point of the line in the closed triangle.
-    fn feature_in_plane(
-        edges: &[(I, I); 3],
-        IntegerFraction(t, whole): &IntegerFraction<I>,
-    ) -> Feature {
-        let on = edges
-            .each_ref()
-            .map(|(constant, slope)| (constant * whole + slope * t).is_zero());
-        match on {
-            [true, _, true] => Feature::VertexA,
-            [true, true, _] => Feature::VertexB,
-            [_, true, true] => Feature::VertexC,
-            [true, ..] => Feature::EdgeAb,
-            [_, true, _] => Feature::EdgeBc,
-            [.., true] => Feature::EdgeCa,
-            _ => Feature::Interior,
-        }
+    /// The feature at a point of the line in the closed triangle. A point's distance from an edge is the weight of the vertex
+    /// across from it.
+    fn feature_in_plane(edges: &[Linear<I>; 3], t: &IntegerFraction<I>) -> Feature {
+        let [ab, bc, ca] = edges.each_ref().map(|Linear { constant, slope }| {
+            sign(&(constant * &t.denominator + slope * &t.numerator))
+        });
+        feature_by_signs([bc, ca, ab])
     }
 }
 
-impl<I: Signed + Ord + Clone + ToPrimitive> IntegerFraction<I>
-where
-    for<'a> &'a I: RefNum<I>,
-{
-    fn new(numerator: I, denominator: I) -> Self {
-        if denominator.is_negative() {
-            IntegerFraction(-numerator, -denominator)
-        } else {
-            IntegerFraction(numerator, denominator)
-        }
+/// The feature at the point of the plane whose weights of a, b and c have these signs.
+fn feature_by_signs(signs: [Ordering; 3]) -> Feature {
+    match signs {
+        [Less, ..] | [_, Less, _] | [.., Less] => Feature::Outside,
+        [Greater, Greater, Greater] => Feature::Interior,
+        [Equal, Greater, Greater] => Feature::EdgeBc,
+        [Greater, Equal, Greater] => Feature::EdgeCa,
+        [Greater, Greater, Equal] => Feature::EdgeAb,
+        [Greater, ..] => Feature::VertexA,
+        [_, Greater, _] => Feature::VertexB,
+        _ => Feature::VertexC,
     }
-
-    fn compare(&self, other: &Self) -> Ordering {
-        // Where a segment crosses the line, t is below 2^77 / 2^75: with an interval's end its product
-        // fits, with itself it would not.
-        if self.0 == other.0 && self.1 == other.1 {
-            return Ordering::Equal;
-        }
-        (&self.0 * &other.1).cmp(&(&other.0 * &self.1))
-    }
-
-    /// A float nearby, where both numbers are in its range.
-    fn near(&self) -> Option<f64> {
-        let t = self.0.to_f64()? / self.1.to_f64()?;
-        t.is_finite().then_some(t)
-    }
-}
-
-fn sign<I: Signed + Ord>(x: &I) -> Ordering {
-    x.cmp(&I::zero())
-}
-
-fn minus<I>(p: &IntegerPoint<I>, q: &IntegerPoint<I>) -> IntegerPoint<I>
-where
-    for<'a> &'a I: RefNum<I>,
-{
-    std::array::from_fn(|i| &p[i] - &q[i])
-}
-
-fn dot<I: Signed>(p: &IntegerPoint<I>, q: &IntegerPoint<I>) -> I
-where
-    for<'a> &'a I: RefNum<I>,
-{
-    &p[0] * &q[0] + &p[1] * &q[1] + &p[2] * &q[2]
-}
-
-fn cross<I: Signed>(p: &IntegerPoint<I>, q: &IntegerPoint<I>) -> IntegerPoint<I>
-where
-    for<'a> &'a I: RefNum<I>,
-{
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &p[i] * &q[j] - &p[j] * &q[i])
 }

@@ -5,6 +5,7 @@
 
 use crate::arith::scale_by_power_of_two;
 use crate::case::{Case, Draw};
+use glam::I64Vec3;
 
 type Doubles = [f64; 3];
 
@@ -12,9 +13,9 @@ type Doubles = [f64; 3];
 pub(super) fn case(seed: u64, index: u64) -> Case<f64> {
     let mut draw = Draw::new("thresholds", seed, index);
     let unlimited = match index % 16 {
+        0 | 4 | 8 | 12 => underflowing(&mut draw),
+        1 | 5 | 9 | 13 => last_bits(&mut draw),
         3 => overflowing(&mut draw),
-        n if n % 4 == 0 => underflowing(&mut draw),
-        n if n % 4 == 1 => last_bits(&mut draw),
         _ => {
             let bits = draw.pick(&[20, 29, 40, 50, 53]);
             let case = cancelling(&mut draw, bits);
@@ -36,30 +37,21 @@ fn is_finite(case: &Case<f64>) -> bool {
     vectors.as_flattened().iter().all(|x| x.is_finite())
 }
 
-fn number(draw: &mut Draw, exponent: i64) -> f64 {
-    draw.with_exponent(exponent as i32)
-}
-
-fn sum(a: Doubles, b: Doubles) -> Doubles {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
 /// The axes after one, in turn.
 fn next_axes(axis: usize) -> [usize; 2] {
     [(axis + 1) % 3, (axis + 2) % 3]
 }
 
-/// A case of whose determinants one has these rows (a point stands for its difference from a base), the
-/// rest being random: one of the weights, T or D.
+/// A case with these rows in one of its determinants: one of the weights, T or D. A row is a direction, or the difference of
+/// a point from a base; the other vectors are the numbers of the case that are not in that determinant.
 fn with_rows(
     draw: &mut Draw,
     rows: [Doubles; 3],
     base: Doubles,
-    others: [Doubles; 2],
+    [other, other_direction]: [Doubles; 2],
 ) -> Case<f64> {
     let [x, ..] = rows;
-    let [at_x, at_y, at_z] = rows.map(|row| sum(base, row));
-    let [other, other_direction] = others;
+    let [at_x, at_y, at_z] = rows.map(|row| [0, 1, 2].map(|axis| base[axis] + row[axis]));
     match draw.below(5) {
         0 => Case::new(base, x, [other, at_y, at_z]),
         1 => Case::new(base, x, [at_z, other, at_y]),
@@ -77,15 +69,18 @@ struct Grid {
 
 impl Grid {
     fn point(&self, draw: &mut Draw) -> Doubles {
-        let steps = draw.lattice_point(self.steps - 1);
-        steps.map(|x| x as f64 / self.steps as f64)
+        let counts = draw.lattice_point(self.steps - 1);
+        counts.map(|count| count as f64 / self.steps as f64)
     }
 
     /// A point of the grid some units beside another point in each axis.
     fn beside(&self, draw: &mut Draw, point: Doubles, units: i64) -> Doubles {
         let steps = self.steps as f64;
         let offset = draw.lattice_point(units);
-        [0, 1, 2].map(|i| ((point[i] * steps).round() + offset[i] as f64) / steps)
+        [0, 1, 2].map(|axis| {
+            let nearest = (point[axis] * steps).round();
+            (nearest + offset[axis] as f64) / steps
+        })
     }
 }
 
@@ -95,15 +90,16 @@ fn cancelling(draw: &mut Draw, bits: i32) -> Case<f64> {
     let grid = Grid { steps: 1 << bits };
     let x = grid.point(draw);
     let y = if draw.coin() {
-        let multiple = draw.pick(&[1.0, -1.0, 0.5, -0.75]);
-        grid.beside(draw, x.map(|x| x * multiple), 4)
+        let factor = draw.pick(&[1.0, -1.0, 0.5, -0.75]);
+        let parallel = x.map(|x| x * factor);
+        grid.beside(draw, parallel, 4)
     } else {
         grid.point(draw)
     };
-    let s = factor(draw);
-    let t = factor(draw);
+    let s = share(draw);
+    let t = share(draw);
     let units = draw.pick(&[0, 1, 1, 3]);
-    let in_plane = [0, 1, 2].map(|i| s * x[i] + t * y[i]);
+    let in_plane = [0, 1, 2].map(|axis| s * x[axis] + t * y[axis]);
     let z = grid.beside(draw, in_plane, units);
     let mut rows = [x, y, z];
     rows.rotate_left(draw.below(3));
@@ -117,7 +113,7 @@ fn cancelling(draw: &mut Draw, bits: i32) -> Case<f64> {
 }
 
 /// How much of a vector a sum has.
-fn factor(draw: &mut Draw) -> f64 {
+fn share(draw: &mut Draw) -> f64 {
     if draw.coin() {
         draw.pick(&[0.0, 0.5, -0.5, 1.0, -1.0])
     } else {
@@ -128,7 +124,7 @@ fn factor(draw: &mut Draw) -> f64 {
 /// A case whose axes, and then its direction, are multiplied by powers of two, which keeps all signs:
 /// to the ends of what the predicate of `robust` is used for, to where products of three coordinates
 /// overflow or underflow, and each axis by itself, also such that the last of its bits is the smallest float,
-/// with or without a point that lies far off along it. As it was if a number leaves the range.
+/// with or without a point that lies far off along it. If a number leaves the range, the case stays as it is.
 fn scaled(draw: &mut Draw, case: &Case<f64>, bits: i32) -> Case<f64> {
     let drawn_powers = axis_powers(draw);
     let drawn_power = draw.integer(-300, 300) as i32;
@@ -139,17 +135,20 @@ fn scaled(draw: &mut Draw, case: &Case<f64>, bits: i32) -> Case<f64> {
         Some(axis) => with_last_bit_at_the_smallest(drawn_powers, axis, bits),
         None => drawn_powers,
     };
-    let [origin, direction, a, b, c] = case
-        .vectors()
-        .map(|vector| [0, 1, 2].map(|i| scale_by_power_of_two(vector[i], powers[i])));
-    let direction = direction.map(|x| scale_by_power_of_two(x, direction_power));
-    let mut points = [origin, a, b, c];
+    let mut vectors = case.vectors();
+    for vector in &mut vectors {
+        for (x, power) in vector.iter_mut().zip(powers) {
+            *x = scale_by_power_of_two(*x, power);
+        }
+    }
     if let Some(axis) = smallest
         && draw.coin()
     {
-        points[draw.below(4)][axis] = 1.0;
+        let far_off = draw.pick(&[0, 2, 3, 4]);
+        vectors[far_off][axis] = 1.0;
     }
-    let [origin, a, b, c] = points;
+    let [origin, direction, a, b, c] = vectors;
+    let direction = direction.map(|x| scale_by_power_of_two(x, direction_power));
     let scaled = Case::new(origin, direction, [a, b, c]);
     if is_finite(&scaled) { scaled } else { *case }
 }
@@ -181,12 +180,10 @@ fn with_last_bit_at_the_smallest(powers: [i32; 3], axis: usize, bits: i32) -> [i
 /// that it decides the sign, against another component that is left.
 fn underflowing(draw: &mut Draw) -> Case<f64> {
     let i = draw.below(3);
-    let [next, after] = next_axes(i);
-    let [j, k] = if draw.coin() {
-        [next, after]
-    } else {
-        [after, next]
-    };
+    let [mut j, mut k] = next_axes(i);
+    if !draw.coin() {
+        (j, k) = (k, j);
+    }
     let mut p = [0; 3];
     let mut q = [0; 3];
     let mut f = [0; 3];
@@ -217,18 +214,18 @@ fn about_the_smallest(draw: &mut Draw) -> i64 {
 }
 
 fn with_exponents(draw: &mut Draw, exponents: [i64; 3]) -> Doubles {
-    exponents.map(|exponent| number(draw, exponent.clamp(-1070, 1000)))
+    exponents.map(|exponent| draw.with_exponent(exponent.clamp(-1070, 1000) as i32))
 }
 
 /// A determinant f·(p×q) of which one product of f and p×q is beyond the largest float, while the other two together
 /// outweigh it: computed it is infinite and has the wrong sign.
 fn overflowing(draw: &mut Draw) -> Case<f64> {
-    let p = [(); 3].map(|()| number(draw, 300));
-    let q = [(); 3].map(|()| number(draw, 300));
+    let p = with_exponents(draw, [300; 3]);
+    let q = with_exponents(draw, [300; 3]);
     let beyond = draw.below(3);
     let half = scale_by_power_of_two(draw.pick(&[1.0, -1.0]), 1023);
     let mut f = [0.0; 3];
-    for (i, number) in f.iter_mut().enumerate() {
+    for (i, x) in f.iter_mut().enumerate() {
         let [j, k] = next_axes(i);
         let component = p[j] * q[k] - p[k] * q[j];
         // The product as a share of the largest float.
@@ -237,7 +234,7 @@ fn overflowing(draw: &mut Draw) -> Case<f64> {
         } else {
             -0.6 - 0.3 * draw.unit()
         };
-        *number = half / component * (2.0 * share);
+        *x = half / component * (2.0 * share);
     }
     let others = [draw.point(), draw.point()];
     with_rows(draw, [f, p, q], [0.0; 3], others)
@@ -251,39 +248,52 @@ fn last_bits(draw: &mut Draw) -> Case<f64> {
     let position_exponent = grid_exponent(draw, bits);
     let direction_exponent = grid_exponent(draw, bits);
     let kind = draw.below(3);
-    let mut vectors = [[0; 3]; 5];
-    for coordinate in vectors.as_flattened_mut() {
-        *coordinate = match kind {
-            0 => draw.pick(&[largest - 1, 1 - largest]),
-            1 => draw.pick(&[largest - 1, 1 - largest, largest, largest - 2, 0, 1]),
-            _ => draw.integer(1 - largest, largest - 1),
-        };
-    }
+    let [mut o, mut d, mut a, mut b, mut c] = [(); 5].map(|()| {
+        let point = [(); 3].map(|()| near_the_largest(draw, largest, kind));
+        I64Vec3::from(point)
+    });
     match draw.below(4) {
-        // In the plane, and on it.
-        0 => vectors[1] = [0, 1, 2].map(|i| (vectors[2][i] - vectors[3][i]) / 2),
-        1 => vectors[4] = [0, 1, 2].map(|i| vectors[2][i] / 2 + vectors[3][i] / 2),
-        2 => put_on_a_line(draw, &mut vectors, bits),
+        // A direction in the plane, and a triangle without area.
+        0 => d = (a - b) / 2,
+        1 => c = a / 2 + b / 2,
+        2 => {
+            // The direction has the last bit next to the first.
+            d = first_and_last_bit(draw, bits);
+            [o, a, b] = [(); 3].map(|()| on_a_line(draw, d));
+            let mut vertices = [a, b, c];
+            vertices.rotate_left(draw.below(3));
+            [a, b, c] = vertices;
+        }
         _ => {}
     }
-    // Counted from 1; beyond 15 none is off.
+    // The number that is half a unit off, counted from 1; beyond 15 none is.
     let off = draw.below(30);
     let mut floats = [[0.0; 3]; 5];
-    for (i, float) in floats.as_flattened_mut().iter_mut().enumerate() {
-        let mut units = vectors[i / 3][i % 3] as f64;
-        if i + 1 == off {
-            units += 0.5;
-        }
-        let is_of_direction = i / 3 == 1;
-        let exponent = if is_of_direction {
-            direction_exponent
-        } else {
-            position_exponent
+    for (i, vector) in [o, d, a, b, c].into_iter().enumerate() {
+        let exponent = match i {
+            1 => direction_exponent,
+            _ => position_exponent,
         };
-        *float = scale_by_power_of_two(units, exponent);
+        for axis in 0..3 {
+            let mut units = vector[axis] as f64;
+            if 3 * i + axis + 1 == off {
+                units += 0.5;
+            }
+            floats[i][axis] = scale_by_power_of_two(units, exponent);
+        }
     }
     let [o, d, a, b, c] = floats;
     Case::new(o, d, [a, b, c])
+}
+
+/// An integer below the largest, of one of three kinds: at an end, about an end or zero, anywhere.
+fn near_the_largest(draw: &mut Draw, largest: i64, kind: usize) -> i64 {
+    let last = largest - 1;
+    match kind {
+        0 => draw.pick(&[last, -last]),
+        1 => draw.pick(&[last, -last, largest, largest - 2, 0, 1]),
+        _ => draw.integer(-last, last),
+    }
 }
 
 /// One above the largest float of so many bits.
@@ -304,15 +314,16 @@ fn grid_exponent(draw: &mut Draw, bits: i64) -> i32 {
     exponent as i32
 }
 
-/// Puts the origin and two vertices on a line, whose direction has the last bit beside the first.
-fn put_on_a_line(draw: &mut Draw, vectors: &mut [[i64; 3]; 5], bits: i64) {
+/// A vector of which two coordinates have the first of some bits, and one has the last.
+fn first_and_last_bit(draw: &mut Draw, bits: i64) -> I64Vec3 {
     let half = 1i64 << (bits - 1);
-    let mut step = [(); 3].map(|()| draw.pick(&[half, -half]));
-    step[draw.below(3)] = draw.pick(&[1, -1]);
-    vectors[1] = step;
-    for point in [0, 2, 3] {
-        let steps = draw.integer(0, 3);
-        vectors[point] = step.map(|x| steps * x - (x + x / 2));
-    }
-    vectors[2..].rotate_left(draw.below(3));
+    let mut vector = I64Vec3::from([(); 3].map(|()| draw.pick(&[half, -half])));
+    vector[draw.below(3)] = draw.pick(&[1, -1]);
+    vector
+}
+
+/// A point on a line of integers about zero.
+fn on_a_line(draw: &mut Draw, step: I64Vec3) -> I64Vec3 {
+    let steps = draw.integer(0, 3);
+    step * steps - (step + step / 2)
 }

@@ -5,6 +5,7 @@ use super::super::unit;
 use crate::arith::Float;
 use crate::case::{DirectionLength, Draw, RayKind, Scene, Toward};
 use glam::DVec3;
+use std::ops::Neg;
 
 /// A number between two positive ones, each doubling equally likely: 2^-8 of the range on a scale of
 /// powers, and even within.
@@ -45,6 +46,11 @@ pub fn between(draw: &mut Draw, [low, high]: [f64; 2]) -> f64 {
 
 pub fn symmetric(draw: &mut Draw) -> f64 {
     2.0 * draw.unit() - 1.0
+}
+
+/// A number or its negative, as a coin falls.
+pub fn either_sign<T: Neg<Output = T>>(draw: &mut Draw, x: T) -> T {
+    if draw.coin() { x } else { -x }
 }
 
 /// A unit vector, uniform on the sphere.

@@ -13,7 +13,7 @@ mod planes;
 mod shadow;
 mod triangles;
 
-pub(crate) use draw::{RayAxes, circle, in_plane, rounded, unit_vector};
+pub(crate) use draw::{RayAxes, circle, either_sign, in_plane, rounded, unit_vector};
 pub use draw::{any_direction, wide};
 pub use flat::TRIES;
 pub(super) use flat::grazing_sine;
@@ -155,15 +155,12 @@ pub fn missed_sine<F: Float>(
     index: u64,
 ) -> Option<f64> {
     let mut draw = Draw::new(Stratum::Grazing.family().name, seed, index);
-    grazing_ray(
-        &Setup {
-            triangles,
-            scene,
-            kernel: None,
-        },
-        &mut draw,
-    )
-    .1
+    let setup = Setup {
+        triangles,
+        scene,
+        kernel: None,
+    };
+    grazing_ray(&setup, &mut draw).missed_sine
 }
 
 /// Chooses the length of one ray's direction in a scene of all lengths: a unit vector in half of the cases, the way to the

@@ -1,6 +1,6 @@
 //! Where the planes of a scene's triangles lie, and how they are turned.
 
-use super::draw::{RayAxes, between_powers, circle, symmetric};
+use super::draw::{RayAxes, between_powers, circle, either_sign, symmetric};
 use crate::case::{Draw, PlaneKind, Scene};
 use glam::DVec3;
 
@@ -27,40 +27,36 @@ pub fn plane(draw: &mut Draw, scene: &Scene, size: f64) -> (DVec3, RayAxes) {
         _ if draw.coin() => [1.0, 0.0],
         _ => turn(draw),
     };
-    let frame = RayAxes::upright(axes, turned);
-    let side = if draw.coin() { 1.0 } else { -1.0 };
+    let mut frame = RayAxes::upright(axes, turned);
+    let side = either_sign(draw, 1.0);
     let height = &mut base[axes[2]];
-    let near_zero = |draw: &mut Draw| side * scene.extent * between_powers(draw, NEAR_ZERO);
     match scene.plane {
         PlaneKind::Generic | PlaneKind::Axis | PlaneKind::Box => {}
-        PlaneKind::AxisNearZero => *height = near_zero(draw),
+        PlaneKind::AxisNearZero => *height = near_zero(draw, scene, side),
         PlaneKind::AxisAtZero => *height = 0.0,
         PlaneKind::Terrain => {
-            *height = scene.center + near_zero(draw);
-            let (downhill, slope) = (turn(draw), between_powers(draw, SLOPES));
+            *height = scene.center + near_zero(draw, scene, side);
+            let downhill = turn(draw);
+            let slope = between_powers(draw, SLOPES);
             return (base, frame.tilted(downhill, slope));
         }
     }
-    let RayAxes {
-        along,
-        across,
-        normal,
-    } = frame;
     // Half of the planes face down.
-    (
-        base,
-        RayAxes {
-            along,
-            across: across * side,
-            normal: normal * side,
-        },
-    )
+    frame.across *= side;
+    frame.normal *= side;
+    (base, frame)
+}
+
+/// A small height on one side of 0.
+fn near_zero(draw: &mut Draw, scene: &Scene, side: f64) -> f64 {
+    side * scene.extent * between_powers(draw, NEAR_ZERO)
 }
 
 /// A point so far inside the extent that all within `size` of it is inside too, where there is one.
 pub fn place(draw: &mut Draw, scene: &Scene, size: f64) -> DVec3 {
     let reach = (scene.extent - size).max(0.0);
-    let from_center = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw)) * reach;
+    let share = DVec3::new(symmetric(draw), symmetric(draw), symmetric(draw));
+    let from_center = share * reach;
     // Adding 0 would take the sign from zeros.
     if scene.center == 0.0 {
         from_center
@@ -75,19 +71,20 @@ pub fn turn(draw: &mut Draw) -> [f64; 2] {
     vector.map(|x| x / length)
 }
 
-/// Along and across, two vertices of half a rectangle whose corner is the third and whose diagonal is `size` long.
-pub fn half_of_a_face(draw: &mut Draw, size: f64) -> [(f64, f64); 2] {
+/// Half a rectangle: how far along and how far across its other two vertices lie from the corner. Its diagonal is `size`
+/// long.
+pub fn half_of_a_face(draw: &mut Draw, size: f64) -> (f64, f64) {
     let across = 0.25 + 0.45 * draw.unit();
-    [
-        ((1.0 - across * across).sqrt() * size, 0.0),
-        (0.0, across * size),
-    ]
+    let along = (1.0 - across * across).sqrt();
+    (along * size, across * size)
 }
 
 /// The ends of the six edges around a corner of a box: three are the box's, three are diagonals of faces, all at most
 /// about 1 long.
 pub fn faces_at_a_corner(draw: &mut Draw, frame: &RayAxes) -> [DVec3; 6] {
-    let [x, y, z] = [frame.along, frame.across, frame.normal]
-        .map(|axis| axis * (0.35 + 0.35 * draw.unit()) * if draw.coin() { 1.0 } else { -1.0 });
+    let [x, y, z] = [frame.along, frame.across, frame.normal].map(|axis| {
+        let length = 0.35 + 0.35 * draw.unit();
+        axis * either_sign(draw, length)
+    });
     [x, x + y, y, y + z, z, z + x]
 }

@@ -8,7 +8,7 @@ use super::aimed::{aim, interior_case};
 use super::draw::{between, direction, point_of, rounded, wide};
 use crate::arith::Vector;
 use crate::case::{Case, DirectionLength, Draw};
-use crate::kernel::{Entry, Scalar, Verdict, find, verdicts_of};
+use crate::kernel::{Entry, Gives, Scalar, Verdict, find, verdicts_of};
 use std::slice;
 
 /// The kernel at whose hit points shadow rays start, unless the parameters name another.
@@ -23,13 +23,13 @@ pub fn shadow<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> 
     CaseGroup::One(Case::new(point, direction, triangle))
 }
 
-/// From a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
+/// A segment from a rounded point to a hit point, as programs ask what stands between the two: a unit vector and the rounded distance,
 /// or their difference and t_max = 1.
 pub fn segment<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> CaseGroup<F> {
     let HitPoint { point, triangle } = hit(setup, draw);
     let unit_way = aim(draw, setup.scene, triangle);
     let drawn_length = between(draw, setup.scene.distance);
-    // A segment has a length: of none there is nothing to ask.
+    // A segment without length has no direction.
     let length = drawn_length.max(setup.scene.edge[0]);
     let start = rounded::<F>(wide(point) - unit_way * length);
     let way = toward(start, point);
@@ -61,8 +61,10 @@ fn hit<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> HitPoint<F> {
         let case = interior_case(setup, draw);
         let Some(kernel) = kernel else { break };
         if let Some(point) = hit_point(draw, &case, kernel) {
-            let triangle = corners(&case);
-            return HitPoint { point, triangle };
+            return HitPoint {
+                point,
+                triangle: corners(&case),
+            };
         }
     }
     let (triangle, _) = setup.triangles.triangle(draw);
@@ -76,26 +78,30 @@ fn hit<F: Scalar>(setup: &Setup<'_, F>, draw: &mut Draw) -> HitPoint<F> {
 /// The point at which a kernel with every epsilon at zero hits, in one of the two ways in which renderers
 /// form it.
 pub fn hit_point<F: Scalar>(draw: &mut Draw, case: &Case<F>, kernel: &Entry) -> Option<[F; 3]> {
-    let subject = F::subject(kernel)?;
-    let gates = kernel.info.gates;
-    let zeros = vec![F::zero(); gates.len()];
-    let mut verdicts = [Verdict::miss(None)];
-    verdicts_of(subject, slice::from_ref(case), &zeros, &mut verdicts);
-    let [verdict] = verdicts;
+    let verdict = verdict_at_zero(case, kernel)?;
     if !verdict.hit {
         return None;
     }
-    let gives = kernel.info.gives;
-    let on_ray = gives.t.then(|| point_on_ray(case, verdict.t));
-    let by_weights = gives
-        .uv
-        .then(|| point_by_weights(case, verdict.u, verdict.v));
+    let Gives { t, uv, .. } = kernel.info.gives;
+    let on_ray = t.then(|| point_on_ray(case, verdict.t));
+    let by_weights = uv.then(|| point_by_weights(case, verdict.u, verdict.v));
     let point = if draw.coin() {
         by_weights.or(on_ray)
     } else {
         on_ray.or(by_weights)
-    };
-    point.filter(|point| point.iter().all(F::is_finite))
+    }?;
+    let is_finite = point.iter().all(F::is_finite);
+    is_finite.then_some(point)
+}
+
+/// The verdict of a kernel with every epsilon at zero; none if it does not compute in this scalar.
+fn verdict_at_zero<F: Scalar>(case: &Case<F>, kernel: &Entry) -> Option<Verdict<F>> {
+    let subject = F::subject(kernel)?;
+    let zeros = vec![F::zero(); kernel.info.gates.len()];
+    let mut verdicts = [Verdict::miss(None)];
+    verdicts_of(subject, slice::from_ref(case), &zeros, &mut verdicts);
+    let [verdict] = verdicts;
+    Some(verdict)
 }
 
 fn point_on_ray<F: Scalar>(case: &Case<F>, t: F) -> [F; 3] {

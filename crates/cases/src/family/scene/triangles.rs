@@ -2,7 +2,7 @@
 
 use super::super::integer::{shuffle, turned};
 use super::super::unit;
-use super::draw::{RayAxes, edge_length, in_plane, rounded, symmetric};
+use super::draw::{RayAxes, edge_length, either_sign, in_plane, rounded, symmetric};
 use super::planes::{AXES, faces_at_a_corner, half_of_a_face, place, plane, turn};
 use crate::arith::Float;
 use crate::case::{DirectionLength, Draw, PlaneKind, Scene};
@@ -57,12 +57,14 @@ impl<F: Float> TriangleSource<F> for Scene {
     fn triangle(&self, draw: &mut Draw) -> (Corners<F>, RayAxes) {
         let size = edge_length(draw, self);
         let (a, frame) = plane(draw, self, size);
-        let [base, (x, y)] = match self.plane {
-            PlaneKind::Box => half_of_a_face(draw, size),
-            _ => [(size, 0.0), apex(draw, size)],
+        let (to_b, to_c) = if self.plane == PlaneKind::Box {
+            let (along, across) = half_of_a_face(draw, size);
+            (frame.flat(along, 0.0), frame.flat(0.0, across))
+        } else {
+            let (x, y) = apex(draw, size);
+            (frame.flat(size, 0.0), frame.flat(x, y))
         };
-        let (b, c) = (a + frame.flat(base.0, base.1), a + frame.flat(x, y));
-        let corners = shuffle(draw, [a, b, c]);
+        let corners = shuffle(draw, [a, a + to_b, a + to_c]);
         (corners.map(rounded), frame)
     }
 
@@ -70,20 +72,19 @@ impl<F: Float> TriangleSource<F> for Scene {
         let size = edge_length(draw, self);
         let (p, frame) = plane(draw, self, size);
         let q = p + frame.flat(size, 0.0);
-        let (x, y) = apex(draw, size);
-        let first = p + frame.flat(x, y);
+        let (along, across) = apex(draw, size);
+        let first = p + frame.flat(along, across);
+        let (along, across) = apex(draw, size);
+        let bend = symmetric(draw);
         // The second triangle is bent out of the plane of the first by up to 27 degrees; on level ground by up to 6; in
         // planes of two axes not at all; at the edge of a box by a right angle.
-        let (x, y) = apex(draw, size);
-        let bend = symmetric(draw);
-        let bent = |bend: f64| (frame.normal * bend - frame.across) / (1.0 + bend * bend).sqrt();
-        let down = match self.plane {
-            PlaneKind::Generic => bent(0.5 * bend),
-            PlaneKind::Terrain => bent(0.1 * bend),
+        let away = match self.plane {
+            PlaneKind::Generic => bent_away(&frame, 0.5 * bend),
+            PlaneKind::Terrain => bent_away(&frame, 0.1 * bend),
             PlaneKind::Axis | PlaneKind::AxisNearZero | PlaneKind::AxisAtZero => -frame.across,
             PlaneKind::Box => frame.normal * bend.signum(),
         };
-        let second = p + frame.along * x + down * y;
+        let second = p + frame.along * along + away * across;
         let [p, q, first, second] = [p, q, first, second].map(rounded);
         let triangles = [[p, q, first], [q, p, second]].map(|corners| turned(draw, corners));
         Pair {
@@ -100,44 +101,32 @@ impl<F: Float> TriangleSource<F> for Scene {
             PlaneKind::Terrain => 0.02,
             _ => 0.0,
         };
-        let ring = match self.plane {
+        let spokes = match self.plane {
             PlaneKind::Box => faces_at_a_corner(draw, &frame),
             _ => HEXAGON.map(|[x, y]| {
-                let (spoke, height) = (0.5 + 0.5 * draw.unit(), steep * symmetric(draw));
-                frame.flat(x * spoke, y * spoke) + frame.normal * height
+                let length = 0.5 + 0.5 * draw.unit();
+                let height = steep * symmetric(draw);
+                frame.flat(x * length, y * length) + frame.normal * height
             }),
         };
-        let ring = ring.map(|corner| rounded::<F>(center + corner * (size / 1.1)));
+        let rim = spokes.map(|spoke| rounded::<F>(center + spoke * (size / 1.1)));
         let center = rounded(center);
-        let triangle = |i: usize| turned(draw, [center, ring[i], ring[(i + 1) % ring.len()]]);
-        Ring {
-            center,
-            triangles: (0..ring.len()).map(triangle).collect(),
+        let mut triangles = Vec::with_capacity(rim.len());
+        for (i, corner) in rim.into_iter().enumerate() {
+            let next = rim[(i + 1) % rim.len()];
+            triangles.push(turned(draw, [center, corner, next]));
         }
+        Ring { center, triangles }
     }
 
-    /// Unit vectors exactly in a generic plane do not exist among floats. What does: rays along an axis in
-    /// a plane that holds the axis, rays in planes of constant height, and, if directions may have any
-    /// length, sums of edges on a grid.
     fn parallel(&self, draw: &mut Draw) -> Parallel<F> {
         let size = edge_length(draw, self);
-        if !matches!(self.plane, PlaneKind::Generic | PlaneKind::Terrain) {
+        let is_tilted = matches!(self.plane, PlaneKind::Generic | PlaneKind::Terrain);
+        let (triangle, direction) = if is_tilted {
+            parallel_of_any_sort(draw, self, size)
+        } else {
             let (base, frame) = plane(draw, self, size);
-            let (triangle, direction) = level(draw, self, size, base, &frame);
-            return Parallel {
-                triangle,
-                direction,
-                size,
-            };
-        }
-        let axes = draw.pick(&AXES);
-        let (triangle, direction) = match (self.direction, draw.below(3)) {
-            (DirectionLength::Target, 0) => on_grid::<F>(draw, self, size),
-            (_, 0 | 1) => holding_axis(draw, self, size, axes),
-            _ => {
-                let (base, turned) = (place(draw, self, size), turn(draw));
-                level(draw, self, size, base, &RayAxes::upright(axes, turned))
-            }
+            level(draw, self, size, base, &frame)
         };
         Parallel {
             triangle,
@@ -145,6 +134,31 @@ impl<F: Float> TriangleSource<F> for Scene {
             size,
         }
     }
+}
+
+/// A triangle, and a direction exactly parallel to its plane. Unit vectors in a generic plane do not exist among floats.
+/// What does: rays along an axis in a plane that holds the axis, rays in planes of constant height, and, if directions may
+/// have any length, sums of edges on a grid.
+fn parallel_of_any_sort<F: Float>(
+    draw: &mut Draw,
+    scene: &Scene,
+    size: f64,
+) -> (Corners<F>, [F; 3]) {
+    let axes = draw.pick(&AXES);
+    match (scene.direction, draw.below(3)) {
+        (DirectionLength::Target, 0) => on_grid(draw, scene, size),
+        (_, 0 | 1) => holding_axis(draw, scene, size, axes),
+        _ => {
+            let base = place(draw, scene, size);
+            let frame = RayAxes::upright(axes, turn(draw));
+            level(draw, scene, size, base, &frame)
+        }
+    }
+}
+
+/// The unit vector against `across`, bent out of the plane by the angle of a tangent.
+fn bent_away(frame: &RayAxes, tangent: f64) -> DVec3 {
+    (frame.normal * tangent - frame.across) / (1.0 + tangent * tangent).sqrt()
 }
 
 /// The corners of a hexagon: cosines and sines of multiples of 60 degrees.
@@ -181,25 +195,31 @@ fn snapped(x: f64, spacing: f64) -> f64 {
     (x / spacing).round_ties_even() * spacing
 }
 
+/// The point of a grid next to a point.
+fn snapped_point(point: DVec3, spacing: f64) -> DVec3 {
+    point.to_array().map(|x| snapped(x, spacing)).into()
+}
+
 /// A triangle on the grid of a generic plane, and a sum of its edges.
-fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> ([[F; 3]; 3], [F; 3]) {
+fn on_grid<F: Float>(draw: &mut Draw, scene: &Scene, size: f64) -> (Corners<F>, [F; 3]) {
     // Coarser than a float's own grid, so that sums of three edges are floats too.
     let spacing = 8.0 * grid::<F>(scene);
     let size = size.max(4.0 * spacing);
     loop {
-        let (a, frame) = (place(draw, scene, size), RayAxes::draw(draw));
+        let base = place(draw, scene, size);
+        let frame = RayAxes::draw(draw);
         let (x, y) = apex(draw, size);
-        let corners = [a, a + frame.flat(size, 0.0), a + frame.flat(x, y)];
-        let [a, b, c] = corners.map(|p| DVec3::from(p.to_array().map(|x| snapped(x, spacing))));
-        let (e, f) = (b - a, c - a);
-        let normal = e.cross(f);
+        let a = snapped_point(base, spacing);
+        let b = snapped_point(base + frame.flat(size, 0.0), spacing);
+        let c = snapped_point(base + frame.flat(x, y), spacing);
+        let ab = b - a;
+        let ac = c - a;
+        let normal = ab.cross(ac);
         if 0.001 * size.powi(4) < normal.dot(normal) {
             let sums = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 2.0)];
             let (i, j) = draw.pick(&sums);
-            return (
-                shuffle(draw, [a, b, c]).map(rounded),
-                rounded(e * i + f * j),
-            );
+            let corners = shuffle(draw, [a, b, c]);
+            return (corners.map(rounded), rounded(ab * i + ac * j));
         }
     }
 }
@@ -211,45 +231,44 @@ fn holding_axis<F: Float>(
     draw: &mut Draw,
     scene: &Scene,
     size: f64,
-    axes: [usize; 3],
-) -> ([[F; 3]; 3], [F; 3]) {
+    [axis, second, third]: [usize; 3],
+) -> (Corners<F>, [F; 3]) {
     let spacing = grid::<F>(scene);
-    let base = place(draw, scene, size);
-    let steps = (size / spacing / 4.0) as i64;
+    let mut base = place(draw, scene, size);
+    base[second] = snapped(base[second], spacing);
+    base[third] = snapped(base[third], spacing);
+    let most = (size / spacing / 4.0) as i64;
     loop {
-        let line = [
-            draw.integer(-steps, steps),
-            draw.integer((steps + 1) / 2, steps),
+        // One step of the line, in units of the grid.
+        let step = [
+            draw.integer(-most, most),
+            draw.integer((most + 1) / 2, most),
         ];
-        let [first, second] = draw.pick(&[[1, 2], [2, -1], [-1, 1], [1, -2]]);
-        let along = [0.0, symmetric(draw) * size, symmetric(draw) * size];
-        let from_base = |step: i64, along: f64| {
-            let [i, j] = line.map(|part| (step * part) as f64 * spacing);
-            DVec3::new(along, i, j)
-        };
-        let corners = [
-            from_base(0, 0.0),
-            from_base(first, along[1]),
-            from_base(second, along[2]),
-        ];
-        let [e, f] = [corners[1] - corners[0], corners[2] - corners[0]];
-        let longest = [e, f, f - e]
-            .iter()
-            .fold(0.0f64, |most, edge| most.max(edge.length()));
-        let is_wide = 0.125 * longest * longest <= e.cross(f).length();
+        let [steps_to_b, steps_to_c] = draw.pick(&[[1, 2], [2, -1], [-1, 1], [1, -2]]);
+        let b_along = symmetric(draw) * size;
+        let c_along = symmetric(draw) * size;
+        let b = seen_from_base(b_along, step.map(|part| part * steps_to_b), spacing);
+        let c = seen_from_base(c_along, step.map(|part| part * steps_to_c), spacing);
+        let longest = b.length().max(c.length()).max((c - b).length());
+        let is_wide = 0.125 * longest * longest <= b.cross(c).length();
         if longest <= size && size <= 2.0 * longest && is_wide {
-            let at_base = |corner: DVec3| {
-                let mut p = [0.0; 3];
-                p[axes[0]] = base[axes[0]] + corner.x;
-                for (axis, steps) in [(axes[1], corner.y), (axes[2], corner.z)] {
-                    p[axis] = snapped(base[axis], spacing) + steps;
-                }
-                p.map(F::from_f64)
-            };
-            let corners = shuffle(draw, corners.map(at_base));
-            return (corners, along_axis(draw, scene, axes[0]));
+            let corners = [DVec3::ZERO, b, c].map(|from_base| {
+                let mut corner = base;
+                corner[axis] += from_base.x;
+                corner[second] += from_base.y;
+                corner[third] += from_base.z;
+                rounded(corner)
+            });
+            let triangle = shuffle(draw, corners);
+            return (triangle, along_axis(draw, scene, axis));
         }
     }
+}
+
+/// A vector from the base: some way along an axis, and steps of the grid along the two others.
+fn seen_from_base(along: f64, steps: [i64; 2], spacing: f64) -> DVec3 {
+    let [second, third] = steps.map(|count| count as f64 * spacing);
+    DVec3::new(along, second, third)
 }
 
 /// A triangle in a plane of two axes, and a direction in that plane.
@@ -259,12 +278,13 @@ fn level<F: Float>(
     size: f64,
     base: DVec3,
     frame: &RayAxes,
-) -> ([[F; 3]; 3], [F; 3]) {
+) -> (Corners<F>, [F; 3]) {
     let (x, y) = apex(draw, size);
     let corners = [base, base + frame.flat(size, 0.0), base + frame.flat(x, y)];
-    let flat = in_plane(draw, frame);
-    let flat = flat_along(draw, scene, flat);
-    (shuffle(draw, corners).map(rounded), flat)
+    let way = in_plane(draw, frame);
+    let direction = flat_along(draw, scene, way);
+    let triangle = shuffle(draw, corners).map(rounded);
+    (triangle, direction)
 }
 
 /// A direction along an axis, of the length that the scene's directions have.
@@ -274,7 +294,7 @@ pub fn along_axis<F: Float>(draw: &mut Draw, scene: &Scene, axis: usize) -> [F; 
         DirectionLength::Target => edge_length(draw, scene),
     };
     let mut direction = [F::zero(); 3];
-    direction[axis] = F::from_f64(if draw.coin() { length } else { -length });
+    direction[axis] = F::from_f64(either_sign(draw, length));
     direction
 }
 
@@ -282,7 +302,8 @@ pub fn along_axis<F: Float>(draw: &mut Draw, scene: &Scene, axis: usize) -> [F; 
 pub fn flat_along<F: Float>(draw: &mut Draw, scene: &Scene, flat: DVec3) -> [F; 3] {
     match scene.direction {
         DirectionLength::Unit | DirectionLength::Mixed => {
-            unit::<f64>(flat.to_array()).map(F::from_f64)
+            let of_unit_length: [f64; 3] = unit(flat.to_array());
+            of_unit_length.map(F::from_f64)
         }
         DirectionLength::Target => rounded(flat * edge_length(draw, scene)),
     }

@@ -1,10 +1,12 @@
 use super::*;
 use crate::case::Parameters;
 use crate::family::FAMILIES;
+use crate::judge::ValueLimits;
 use crate::kernel::Scalar;
 use crate::oracle;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
+use std::array;
 
 fn number(x: f64) -> BigRational {
     BigRational::from_float(x).expect("finite")
