@@ -64,7 +64,7 @@ pub(super) fn quick(case: &Case<f64>, size: i32, ulp: f64, zeros: &Zeros) -> Opt
     }
     let unit = unit_of(longest, size);
     let length = d.length();
-    let to_edges = to_edges(o, d, [a, b, c]);
+    let to_edges = squares_to_edges(o, d, [a, b, c]);
     let in_space = to_edges.into_iter().fold(f64::INFINITY, f64::min).sqrt() / length;
     let mut quick = Quick {
         distances: Distances {
@@ -106,7 +106,7 @@ fn unit_of(longest: f64, size: i32) -> f64 {
 }
 
 /// The squares of the distances from a line to the edges, times the square of the direction's length.
-fn to_edges(o: DVec3, d: DVec3, corners: [DVec3; 3]) -> [f64; 3] {
+fn squares_to_edges(o: DVec3, d: DVec3, corners: [DVec3; 3]) -> [f64; 3] {
     let offsets = corners.map(|p| (p - o).cross(d));
     [(0, 1), (1, 2), (2, 0)].map(|(p, q)| {
         let offset = offsets[p];
