@@ -12,6 +12,7 @@ use crate::family::{self, TRIES, missed_sine};
 use crate::judge::Finding;
 use crate::mesh::SceneMesh;
 use crate::record::number_of;
+use std::collections::BTreeSet;
 
 /// Why nothing runs: the scalars that the rows have.
 fn no_scalar(rows: &[Row]) -> String {
@@ -19,16 +20,15 @@ fn no_scalar(rows: &[Row]) -> String {
         .iter()
         .zip([0, 1])
         .find(|(_, place)| rows.iter().any(|row| row.entry.scalars()[*place]));
-    match (other, rows) {
-        (Some((scalar, _)), [row]) => format!(
-            "{} runs in {scalar} alone: --scalar {scalar}, or none",
-            row.entry.info.name
-        ),
-        (Some((scalar, _)), _) => {
-            format!("the selected kernels run in {scalar} alone: --scalar {scalar}, or none")
-        }
-        (None, _) => "no selected kernel runs in any scalar".to_owned(),
-    }
+    let Some((scalar, _)) = other else {
+        return "no selected kernel runs in any scalar".to_owned();
+    };
+    let names: BTreeSet<&str> = rows.iter().map(|row| row.entry.info.name).collect();
+    let who = match names.first() {
+        Some(name) if names.len() == 1 => format!("{name} runs"),
+        _ => "the selected kernels run".to_owned(),
+    };
+    format!("{who} in {scalar} alone: write --scalar {scalar}, or leave --scalar out")
 }
 
 /// The chosen scalars that a kernel runs in; an error if there are none, or if an epsilon is not representable in

@@ -249,7 +249,7 @@ fn first_rays_at_a_mesh_leave_its_own_triangles() {
     }
     let (screen, _) = ends(&folder, &[&["offset"], &flags[..], &["-q"]].concat(), 0);
     assert!(
-        screen.starts_with("Where new rays must start in a.obj\n(extent="),
+        screen.starts_with("Where new rays must start in a.obj (extent="),
         "{screen}"
     );
     let (_, error) = ends(

@@ -501,7 +501,7 @@ fn the_example_is_the_whole_program_with_two_kernels_in_it() {
     );
     let (code, _, error) = run(&["audit", "--kernel", "mine", "--scalar", "f64"]);
     assert!(
-        code == Some(4) && error.contains("runs in f32 alone: --scalar f32, or none"),
+        code == Some(4) && error.contains("mine runs in f32 alone: write --scalar f32, or leave"),
         "{error}"
     );
     let (_, shown, _) = run(&[

@@ -664,7 +664,7 @@ fn a_mesh_is_a_scene() {
     assert_eq!(error, "");
     for part in [
         // Edges are rounded outwards to three digits: a box's diagonals are 4.472, 3.606 and 5.
-        "moller-trumbore f32 in box.obj (12 triangles) in extent=3,edge=3.6..5,distance=0..5.39,direction=unit ",
+        "moller-trumbore f32 in box.obj (12 triangles) in extent=3, edge=3.6..5, distance=0..5.39, direction=unit ",
         " use --epsilon parallel=",
         "the smallest triangle is missed at angles below",
     ] {

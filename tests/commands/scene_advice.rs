@@ -202,7 +202,7 @@ fn what_no_scene_can_live_with_is_named_whatever_asked_for_it() {
     ];
     let (screen, _) = ends(&folder, &[&woop[..], &["--scalar", "f64"]].concat(), 0);
     assert!(
-        flat(&screen).contains(" is outside its limits: values within them cost more"),
+        flat(&screen).contains(" is outside its limits, since values within them cost more"),
         "{screen}"
     );
 }
@@ -729,10 +729,9 @@ fn without_a_kernel_all_stand_in_one_table_the_cheapest_first() {
     let costs: Vec<f64> = rows.iter().map(|row| row[1].parse().unwrap()).collect();
     assert!(costs.is_sorted(), "{text}");
     let fixed = record.kernels.iter().map(|part| part.tried[0].cost);
-    assert!(
-        fixed.fold(f64::INFINITY, f64::min) + 0.001 > costs[0],
-        "{text}"
-    );
+    // A cost is told as wrong answers in 100 rays.
+    let least = 100.0 * fixed.fold(f64::INFINITY, f64::min);
+    assert!((least - costs[0]).abs() <= 0.005 * least, "{text}");
     // Kernels that compute the same stand in one row.
     let alike = text
         .lines()

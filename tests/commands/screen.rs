@@ -407,7 +407,7 @@ fn leaks_next_to_noise_are_counted_by_themselves() {
     let ([none, fans], [leaks, pairs]) = (of("vertex-fan"), of("noise"));
     assert!(none == 0 && 0 < leaks && leaks < pairs);
     let expected = format!(
-        "No leak seen at shared edges and vertices in all rows but range: woop-watertight (0 of {fans} rays). Next to noise or at \
+        "No leak seen at shared edges and vertices (range left out): woop-watertight (0 of {fans} rays). Next to noise or at \
          extreme exponents: woop-watertight ({leaks} of {pairs} rays). Breaks what its documentation promises there: plucker."
     );
     assert!(flat(&screen).contains(&expected), "{screen}");

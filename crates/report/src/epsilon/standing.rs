@@ -153,9 +153,13 @@ fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
         let [lower, upper] = [lower, upper].map(|place| &part.limits[*place]);
         let noun = |limit: &KnobLimitPart| noun(&part.counts[limit.count]);
         return Some(match (&lower.value, &upper.value) {
-            (None, _) => format!("every {name} leaves {}", noun(lower)),
-            (_, None) => format!("every {name} leaves {}", noun(upper)),
-            _ => format!("every {name} leaves {} or {}", noun(lower), noun(upper)),
+            (None, _) => format!("every value of {name} leaves {}", noun(lower)),
+            (_, None) => format!("every value of {name} leaves {}", noun(upper)),
+            _ => format!(
+                "every value of {name} leaves {} or {}",
+                noun(lower),
+                noun(upper)
+            ),
         });
     }
     beyond_limits(part, knob).map(|epsilon| {

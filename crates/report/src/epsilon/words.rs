@@ -221,20 +221,21 @@ pub(super) fn meaning(
         (Role::Edge, Dimension::NONE) => {
             let size = human(&format!("{:e}", value.abs()));
             let most = human(&format!("{:.0e}", value.abs() * record.edge[1]));
-            let how_far = match record.has_scene() {
-                true => format!(
-                    "{most}{unit} in the largest triangle ({}{unit}), {size} of its size in any",
-                    ShortNumber(record.edge[1])
+            let largest = ShortNumber(record.edge[1]);
+            Some(match (value < 0.0, record.has_scene()) {
+                (true, true) => format!(
+                    "rays up to {most}{unit} beside a triangle of {largest}{unit} hit it ({size} of any triangle's size; corners: \
+                     twice); so both faces of an edge are hit"
                 ),
-                false => format!("{size} of a triangle's size"),
-            };
-            Some(if value < 0.0 {
-                format!(
-                    "rays that pass beside a triangle hit it, up to {how_far}, and twice as far at corners: at a shared edge \
-                     both triangles are hit"
-                )
-            } else {
-                format!("rays inside a triangle miss it near its edges, up to {how_far}")
+                (true, false) => format!(
+                    "rays up to {size} of a triangle's size beside it hit it (corners: twice); so both faces of an edge are hit"
+                ),
+                (false, true) => format!(
+                    "rays up to {most}{unit} inside a triangle of {largest}{unit} miss it ({size} of any triangle's size)"
+                ),
+                (false, false) => {
+                    format!("rays up to {size} of a triangle's size inside it miss it")
+                }
             })
         }
         // An absolute number beside what the smallest triangles have.

@@ -166,7 +166,7 @@ fn but_for(record: &Record, columns: &[Column]) -> String {
         String::new()
     } else if is_close_up(record) {
         // Each is a row of a close-up.
-        format!(" in all rows but {}", special.join(" and "))
+        format!(" ({} left out)", special.join(" and "))
     } else if special.contains(&"invalid") {
         " but for extreme exponents and invalid input".to_owned()
     } else {
@@ -193,7 +193,7 @@ fn share_of_one(row: &Standing, columns: &[Column], place: &str) -> String {
     };
     let share = row.share.unwrap_or_default();
     let percent = short_percent([(share * 1e9) as u64, 1_000_000_000]);
-    format!("Wrong on {percent} % of the cases{place}{mean}.")
+    format!("Wrong on {percent} % of the cases{mean}{place}.")
 }
 
 /// True if a finding is about several triangles together.
