@@ -14,7 +14,9 @@ use crate::case::Case;
 use crate::judge::{GroupTruth, is_moved};
 use crate::kernel::Scalar;
 use crate::oracle::Layers;
+use std::cell::OnceCell;
 use std::ops::Range;
+use std::slice;
 
 /// A ray that crosses a surface at an edge or vertex which triangles share, and what stands around these.
 pub(super) struct Surrounded {
@@ -30,6 +32,13 @@ pub(super) struct Crossings<F: Float> {
     each: Vec<Surrounded>,
     /// The triangles around the groups that the exact line does not meet.
     around: Vec<Case<F>>,
+}
+
+/// The triangles of a group with their margins; and those as multiples of each triangle's size, once they are asked for.
+struct MeasuredGroup<'a, F: Float> {
+    cases: &'a [Case<F>],
+    margins: &'a [KnobMargins<F>],
+    relative: OnceCell<Vec<KnobMargins<F>>>,
 }
 
 impl<F: Scalar> Setting<'_, F> {
@@ -94,15 +103,14 @@ impl<F: Scalar> Setting<'_, F> {
             around: range,
         } in each
         {
-            let own_cases = &prepared.cases[group.clone()];
-            let own = &prepared.margins[group.clone()];
+            let own = MeasuredGroup {
+                cases: &prepared.cases[group.clone()],
+                margins: &prepared.margins[group.clone()],
+                relative: OnceCell::new(),
+            };
             let mut kept = Vec::new();
             for i in range {
-                let one = &margins[i..=i];
-                let is_left_out = !is_unknown(&one[0])
-                    && is_covered(&one[0], own)
-                    && self.is_covered_at_any_size(&cases[i..=i], one, own_cases, own);
-                if !is_left_out {
+                if !self.is_left_out(&cases[i], &margins[i], &own) {
                     kept.push(i);
                 }
             }
@@ -130,21 +138,25 @@ impl<F: Scalar> Setting<'_, F> {
         }
     }
 
-    /// True if a triangle of a group accepts whatever a triangle beside it accepts, also where epsilons follow each
+    /// True if a triangle beside a group reports no hit where the group reports none, also where epsilons follow each
     /// triangle's size. The sizes cost more than all else here, so they are computed last, and only where they matter.
-    fn is_covered_at_any_size(
+    fn is_left_out(
         &self,
-        case: &[Case<F>],
-        margins: &[KnobMargins<F>],
-        group: &[Case<F>],
-        of_group: &[KnobMargins<F>],
+        case: &Case<F>,
+        margins: &KnobMargins<F>,
+        group: &MeasuredGroup<'_, F>,
     ) -> bool {
-        if is_refused(&margins[0]) {
+        if is_unknown(margins) || !is_covered(margins, group.margins) {
+            return false;
+        }
+        if is_refused(margins) {
             return true;
         }
-        let relative = self.relative_margins(case, margins);
-        let of_group = self.relative_margins(group, of_group);
-        is_covered(&relative[0], &of_group)
+        let of_group = group
+            .relative
+            .get_or_init(|| self.relative_margins(group.cases, group.margins));
+        let relative = self.relative_margins(slice::from_ref(case), slice::from_ref(margins));
+        is_covered(&relative[0], of_group)
     }
 }
 

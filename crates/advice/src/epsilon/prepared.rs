@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// So many cases are kept, which are at most some 150 MB; every pass makes the others again.
-const MOST_KEPT: usize = 600_000;
+/// So many cases are kept, in `f64` at most some 300 MB; every pass makes the others again. They are those of 40,000
+/// indices of each stratum, with the triangles around groups.
+const MOST_KEPT: usize = 1_200_000;
 
 /// Some indices of a stratum.
 pub(super) struct Prepared<F: Float> {
