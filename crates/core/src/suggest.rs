@@ -2,15 +2,15 @@
 
 #![forbid(unsafe_code)]
 
-/// The candidate nearest to a mistyped name, by edit distance, if one is near enough to suggest: a third of the letters
-/// may be wrong.
+/// The candidate nearest to a mistyped name, if one is near enough to suggest: a third of the letters may be wrong, and two
+/// that changed places count once.
 pub fn nearest_name<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     candidates
         .into_iter()
-        .map(|candidate| (strsim::levenshtein(name, candidate), candidate))
+        .map(|candidate| (strsim::osa_distance(name, candidate), candidate))
         .min()
         .filter(|(distance, candidate)| *distance <= 1.max(name.len().min(candidate.len()) / 3))
         .map(|(_, candidate)| candidate)
@@ -70,7 +70,8 @@ mod tests {
         );
         assert_eq!(nearest_name("woop", names()), None);
         assert_eq!(nearest_name("edge", names()), None);
-        assert_eq!(nearest_name("hgue", names()), None);
+        assert_eq!(nearest_name("hgue", names()), Some("huge"));
+        assert_eq!(nearest_name("hgeu", names()), None);
         assert_eq!(nearest_name("huges", names()), Some("huge"));
         assert_eq!(nearest_name("havel-heruot", names()), Some("havel-herout"));
     }
