@@ -107,6 +107,7 @@ fn lines<F: Scalar>() {
             relative: false,
             fine_curves: false,
             store: None,
+            shared: None,
         };
         let attempt = [Attempt::new(vec![F::zero(); knobs.len()])];
         let response = median(|| {

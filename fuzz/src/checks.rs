@@ -194,6 +194,7 @@ where
             relative: false,
             fine_curves: false,
             store: None,
+            shared: None,
         };
         let margin = |case: &Case<F>| gated.measure(case).margins[gate];
         let margins = cases.iter().map(margin).filter(|margin| margin.is_finite());

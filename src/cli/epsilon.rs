@@ -17,7 +17,8 @@ use crate::case::{Scene, Target};
 use crate::engine::Unobserved;
 use crate::epsilon::{
     COUNT, Contender, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting,
-    StudiedRays, contract_with, counts, counts_of, fresh_seed, own_epsilons, surely_dearer,
+    SharedCases, StudiedRays, contract_with, counts, counts_of, fresh_seed, own_epsilons,
+    surely_dearer,
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, KernelIn, Scalar};
@@ -215,18 +216,22 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     for tuned in &tuned {
         for scalar in scalars_of(tuned.row.entry, scalars) {
             planned.push(PlannedStudy {
+                place: planned.len(),
                 tuned,
                 scalar,
                 rays: count,
             });
         }
     }
-    run.hold_rounds(&mut planned)?;
-    run.expect_studies(&planned);
+    run.expect_rounds(&planned);
     let mut parts = Vec::new();
-    for study in &planned {
-        parts.push(in_named_scalar!(study.scalar, F => run.study::<F>(study))?);
+    for scalar in ScalarName::among(scalars) {
+        let of_scalar = planned.extract_if(.., |study| study.scalar == scalar);
+        let of_scalar: Vec<PlannedStudy<'_>> = of_scalar.collect();
+        parts.extend(in_named_scalar!(scalar, F => run.study_all::<F>(of_scalar))?);
     }
+    parts.sort_by_key(|(place, _)| *place);
+    let parts = parts.into_iter().map(|(_, part)| part).collect();
     progress.finish();
     let context = Context {
         seconds: progress.seconds(),
@@ -247,10 +252,15 @@ struct Tuned<'a> {
 
 /// A kernel in a scalar, and how many rays of each kind it gets.
 struct PlannedStudy<'a> {
+    /// Its place in the record.
+    place: usize,
     tuned: &'a Tuned<'a>,
     scalar: ScalarName,
     rays: u64,
 }
+
+/// The part of the record, and the kernel's nanoseconds a ray.
+type StudiedKernel = (SceneKernelPart, f64);
 
 /// A kernel as it is judged here, and what is counted of it.
 struct Judged {
@@ -296,38 +306,63 @@ impl EpsilonRun<'_> {
         all
     }
 
-    /// Takes rays from kernels that are surely not among the first of their scalar.
-    fn hold_rounds(&self, planned: &mut [PlannedStudy<'_>]) -> Result<(), Failure> {
+    /// Lets the progress know how much the rounds are.
+    fn expect_rounds(&self, planned: &[PlannedStudy<'_>]) {
         if !self.has_rounds {
-            return Ok(());
+            return;
         }
-        let count = self.pass.count;
-        let in_rounds: u64 = ROUNDS.iter().map(|share| count / share).sum();
+        let in_rounds: u64 = ROUNDS.iter().map(|share| self.pass.count / share).sum();
         let of_each = PASSES_OF_ROUND * self.kinds * in_rounds;
         self.progress.expect_more(planned.len() as u64 * of_each);
-        for scalar in ScalarName::ALL {
-            let mut standing: Vec<&mut PlannedStudy<'_>> = planned
-                .iter_mut()
-                .filter(|study| study.scalar == scalar)
-                .collect();
-            for share in ROUNDS {
-                self.hold_round(&mut standing, count / share)?;
-                standing.retain(|study| study.rays == count);
-            }
+    }
+
+    /// The rounds of the kernels of one scalar and then their studies, which have their cases in common; with the places in
+    /// the record.
+    fn study_all<F: Advised>(
+        &self,
+        mut planned: Vec<PlannedStudy<'_>>,
+    ) -> Result<Vec<(usize, StudiedKernel)>, Failure> {
+        let cases = SharedCases::<F>::default();
+        let shared = (1 < planned.len()).then_some(&cases);
+        if self.has_rounds {
+            self.hold_rounds(&mut planned, shared)?;
+        }
+        self.expect_studies(&planned);
+        let mut parts = Vec::with_capacity(planned.len());
+        for study in &planned {
+            parts.push((study.place, self.study(study, shared)?));
+        }
+        Ok(parts)
+    }
+
+    /// Takes rays from kernels that are surely not among the first of their scalar.
+    fn hold_rounds<F: Advised>(
+        &self,
+        planned: &mut [PlannedStudy<'_>],
+        shared: Option<&SharedCases<F>>,
+    ) -> Result<(), Failure> {
+        let count = self.pass.count;
+        let mut standing: Vec<&mut PlannedStudy<'_>> = planned.iter_mut().collect();
+        for share in ROUNDS {
+            self.hold_round(&mut standing, count / share, shared)?;
+            standing.retain(|study| study.rays == count);
         }
         Ok(())
     }
 
     /// One round on so many rays of each kind: those that are out get no more.
-    fn hold_round(&self, standing: &mut [&mut PlannedStudy<'_>], rays: u64) -> Result<(), Failure> {
+    fn hold_round<F: Advised>(
+        &self,
+        standing: &mut [&mut PlannedStudy<'_>],
+        rays: u64,
+        shared: Option<&SharedCases<F>>,
+    ) -> Result<(), Failure> {
         if standing.len() <= self.places {
             return Ok(());
         }
         let mut contenders = Vec::with_capacity(standing.len());
         for study in standing.iter() {
-            let contender =
-                in_named_scalar!(study.scalar, F => self.contender::<F>(study.tuned, rays))?;
-            contenders.push(contender);
+            contenders.push(self.contender(study.tuned, rays, shared)?);
         }
         let out = surely_dearer(&contenders, self.places);
         for (study, is_out) in standing.iter_mut().zip(out) {
@@ -364,9 +399,14 @@ impl EpsilonRun<'_> {
     }
 
     /// The costs of a kernel on so many rays of each kind.
-    fn contender<F: Advised>(&self, tuned: &Tuned<'_>, rays: u64) -> Result<Contender, Failure> {
+    fn contender<F: Advised>(
+        &self,
+        tuned: &Tuned<'_>,
+        rays: u64,
+        shared: Option<&SharedCases<F>>,
+    ) -> Result<Contender, Failure> {
         let judged = self.judged(tuned)?;
-        let setting = self.setting::<F>(tuned, &judged)?;
+        let setting = self.setting(tuned, &judged, shared)?;
         let pass = Pass {
             count: rays,
             ..self.pass
@@ -413,6 +453,7 @@ impl EpsilonRun<'_> {
         &'b self,
         tuned: &'b Tuned<'_>,
         judged: &'b Judged,
+        shared: Option<&'b SharedCases<F>>,
     ) -> Result<Setting<'b, F>, Failure> {
         let entry = judged.row.entry;
         let name = entry.info.name;
@@ -428,6 +469,7 @@ impl EpsilonRun<'_> {
             relative: false,
             fine_curves: self.arguments.curves,
             store: None,
+            shared,
         })
     }
 
@@ -435,12 +477,13 @@ impl EpsilonRun<'_> {
     fn study<F: Advised>(
         &self,
         planned: &PlannedStudy<'_>,
-    ) -> Result<(SceneKernelPart, f64), Failure> {
+        shared: Option<&SharedCases<F>>,
+    ) -> Result<StudiedKernel, Failure> {
         let tuned = planned.tuned;
         let Tuned { row, sets, knobs } = tuned;
         let name = row.entry.info.name;
         let judged = self.judged(tuned)?;
-        let setting = self.setting::<F>(tuned, &judged)?;
+        let setting = self.setting(tuned, &judged, shared)?;
         let number = |flag: &str, text: &str| {
             let value = F::parse(text).filter(|value| value.is_finite());
             let wrong = || format!("{flag}: '{text}' is not a finite number of {}", F::NAME);

@@ -67,7 +67,7 @@ fn setting<'a, F: Scalar>(
     sources: &'a [Source],
 ) -> Setting<'a, F> {
     let subject = F::subject(row.entry).unwrap();
-    let (scene, mesh, store) = (None, None, None);
+    let (scene, mesh, store, shared) = (None, None, None, None);
     let (relative, fine_curves) = (false, false);
     Setting {
         row,
@@ -80,6 +80,7 @@ fn setting<'a, F: Scalar>(
         relative,
         fine_curves,
         store,
+        shared,
     }
 }
 

@@ -200,6 +200,7 @@ fn setting<'a>(
         relative: false,
         fine_curves: false,
         store: None,
+        shared: None,
     }
 }
 

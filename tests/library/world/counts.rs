@@ -94,6 +94,7 @@ impl Tuned {
             relative: false,
             fine_curves: false,
             store: None,
+            shared: None,
         }
     }
 

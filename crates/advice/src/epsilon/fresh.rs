@@ -77,7 +77,7 @@ impl<F> Tried<F> {
 }
 
 /// Finds what bounds of knobs cost.
-pub(super) struct Prices<'a, F: Float> {
+pub(super) struct Prices<'a, F: Scalar> {
     setting: &'a Setting<'a, F>,
     /// By count: all rays, those that other knobs refuse too.
     rays: Vec<u64>,

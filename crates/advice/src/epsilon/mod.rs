@@ -24,6 +24,7 @@ mod proved;
 mod race;
 mod rays;
 mod relative;
+mod shared;
 mod study;
 #[cfg(test)]
 mod tests;
@@ -45,6 +46,7 @@ pub use proved::{ProvedValue, proved};
 pub use race::{Contender, CostSeen, surely_dearer};
 pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
+pub use shared::SharedCases;
 pub use study::{
     Elsewhere, SCALE_FREE, SceneStudy, cheapest, own_epsilons, study_scene, try_elsewhere,
 };

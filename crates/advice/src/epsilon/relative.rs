@@ -2,6 +2,7 @@
 
 use crate::arith::Float;
 use crate::case::Case;
+use crate::family::wide;
 use crate::kernel::Dimension;
 
 /// The largest e for which `e * unit <= margin`, in the scalar's arithmetic.
@@ -32,7 +33,7 @@ fn is_last_accepted<F: Float>(epsilon: F, unit: F, margin: F) -> bool {
 ///
 /// Computed in `f64` and rounded to the scalar; 1 where that is zero or infinite.
 pub(super) fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
-    let [o, d, a, b, c] = case.vectors().map(|v| glam::DVec3::from(v.map(F::to_f64)));
+    let [o, d, a, b, c] = case.vectors().map(wide);
     let length = if dimension == Dimension::new(1, -1) {
         [o, a, b, c]
             .iter()

@@ -4,10 +4,11 @@ use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
 use super::prepared::{Prepared, PreparedTrial, Store};
 use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
 use super::relative::{relative, scale};
+use super::shared::{SharedCases, made};
 use crate::arith::Float;
-use crate::audit::{Chunk, Row, Source, SourceSummary, Stock};
+use crate::audit::{Chunk, Row, Source, Stock};
 use crate::case::{Case, Parameters, Scene};
-use crate::engine::{self, Merge, Observer, Unobserved};
+use crate::engine::{self, Merge, Observer};
 use crate::family::{Grouping, Pixel, Stratum, add_ring, pixel, pixel_draw};
 use crate::judge::{Class, Obligation};
 use crate::kernel::{Hit, KernelIn, Scalar};
@@ -70,7 +71,7 @@ pub fn fresh_seed(seed: u64) -> u64 {
 }
 
 /// The setting of a pass: a kernel, its knobs and a scene.
-pub struct Setting<'a, F: Float> {
+pub struct Setting<'a, F: Scalar> {
     /// The kernel, its contract, and the epsilons of the gates that are no knobs.
     pub row: &'a Row,
     /// The same kernel in the scalar.
@@ -91,6 +92,8 @@ pub struct Setting<'a, F: Float> {
     pub fine_curves: bool,
     /// The store that keeps the rays of this kernel, its knobs and its scene between passes.
     pub store: Option<&'a Store<F>>,
+    /// The cases that are made once for several kernels, if there are several.
+    pub shared: Option<&'a SharedCases<F>>,
 }
 
 /// A trial: the answers on a ray that counts for something.
@@ -279,12 +282,17 @@ impl<F: Scalar> Setting<'_, F> {
 
     /// The cases of some indices, their margins, and the trials among them.
     fn prepare(&self, source: &Source, rays: Rays, indices: Range<u64>) -> Prepared<F> {
-        let mut summary = SourceSummary::new(0, F::NAME);
-        let chunk = Chunk::<F>::make(source, indices, &Unobserved, &mut summary);
+        let chunk = match self.shared {
+            Some(shared) => shared.chunk(source, indices),
+            None => Arc::new(made(source, indices)),
+        };
         let (margins, values) = self.margins(&chunk.cases);
         let trials = self.trials(&chunk, rays);
         let crossings = self.crossings(source, &chunk, rays);
-        let cases = chunk.cases;
+        let cases = match Arc::try_unwrap(chunk) {
+            Ok(chunk) => chunk.cases,
+            Err(shared) => shared.cases.clone(),
+        };
         let mut prepared = Prepared {
             cases,
             margins,

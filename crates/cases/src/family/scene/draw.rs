@@ -150,9 +150,11 @@ pub(crate) fn rounded<F: Float>(point: DVec3) -> [F; 3] {
     point.to_array().map(F::from_f64)
 }
 
-/// A point of either scalar, in double: exactly.
-pub fn wide<F: Float>(point: [F; 3]) -> DVec3 {
-    point.map(F::to_f64).into()
+/// A point of either scalar, in double: exactly. Number by number, because an array that is written so and then read as a vector
+/// keeps the processor waiting.
+#[inline]
+pub fn wide<F: Float>([x, y, z]: [F; 3]) -> DVec3 {
+    DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
 }
 
 /// The point of given weights, in `f64`.
