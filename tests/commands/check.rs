@@ -718,11 +718,11 @@ fn bad_settings_are_refused_with_their_line_or_variable() {
         );
     }
     fs::remove_file(folder.join("hairline.toml")).unwrap();
-    let output = hairline_with(&folder, &["check"], &[("HAIRLINE_FAMILY", "tyni")]);
+    let output = hairline_with(&folder, &["check"], &[("HAIRLINE_FAMILY", "tiyn")]);
     let error = String::from_utf8(output.stderr).unwrap();
     assert_eq!(
         error,
-        "hairline: HAIRLINE_FAMILY: unknown family 'tyni'; did you mean 'tiny'?\n"
+        "hairline: HAIRLINE_FAMILY: unknown family 'tiyn'; did you mean 'tiny'?\n"
     );
 }
 
