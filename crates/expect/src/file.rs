@@ -289,12 +289,12 @@ mod tests {
             (
                 "f32",
                 "f16",
-                "e.toml:8: unknown scalar 'f16': did you mean 'f32'?",
+                "e.toml:8: unknown scalar 'f16': expected one of f32, f64",
             ),
             (
                 "tiny",
-                "tyni",
-                "e.toml:8: unknown family 'tyni': did you mean 'tiny'?",
+                "tiyn",
+                "e.toml:8: unknown family 'tiyn': did you mean 'tiny'?",
             ),
             (
                 "false-hit",
