@@ -202,7 +202,10 @@ mod tests {
             .unwrap();
         let role = info.gates[gate].role;
         let is_guarded = |class: &Class| guards(info.gates, role, &info.contract, *class);
-        Class::all().filter(is_guarded).map(Class::name).collect()
+        Class::all()
+            .filter(is_guarded)
+            .map(|class| class.name().to_owned())
+            .collect()
     }
 
     /// True if a class fits one of some patterns, which have `*` for any word.
