@@ -353,7 +353,7 @@ mod tests {
         for (roles, culls, extent, sides, role, patterns) in rows {
             let (gates, contract) = of(roles, culls, extent, sides);
             for class in Class::all() {
-                let expected = fits(&patterns, &class.name());
+                let expected = fits(&patterns, class.name());
                 let told = format!("{roles:?} {culls} {extent:?} {sides:?} {role:?}");
                 assert_eq!(
                     guards(&gates, role, &contract, class),
