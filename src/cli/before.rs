@@ -16,11 +16,10 @@ use std::collections::BTreeSet;
 
 /// Why nothing runs: the scalars that the rows have.
 fn no_scalar(rows: &[Row]) -> String {
-    let other = ScalarName::ALL
+    let other = rows
         .iter()
-        .zip([0, 1])
-        .find(|(_, place)| rows.iter().any(|row| row.entry.scalars()[*place]));
-    let Some((scalar, _)) = other else {
+        .find_map(|row| ScalarName::among(row.entry.scalars()).next());
+    let Some(scalar) = other else {
         return "no selected kernel runs in any scalar".to_owned();
     };
     let names: BTreeSet<&str> = rows.iter().map(|row| row.entry.info.name).collect();

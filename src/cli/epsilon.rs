@@ -1,5 +1,7 @@
 //! `hairline epsilon`: which epsilons, all of a kernel together, for a scene or on families and stored cases.
 
+mod rounds;
+
 use super::before::{
     note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
 };
@@ -16,14 +18,13 @@ use crate::audit::Row;
 use crate::case::{Scene, Target};
 use crate::engine::Unobserved;
 use crate::epsilon::{
-    COUNT, Contender, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting,
-    SharedCases, StudiedRays, contract_with, counts, counts_of, fresh_seed, own_epsilons,
-    surely_dearer,
+    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting, SharedCases,
+    StudiedRays, contract_with, counts, counts_of, fresh_seed, own_epsilons,
 };
 use crate::family::STRATA;
 use crate::kernel::{Entry, KernelIn, Scalar};
 use crate::offset::SegmentPlan;
-use crate::record::{Context, group_digits};
+use crate::record::Context;
 use crate::report::SegmentsPart;
 use crate::report::epsilon::{
     SCENE_FORMATS, SceneKernelPart, has_a_table, kernel_part, rows_on_screen, scene_record,
@@ -31,6 +32,7 @@ use crate::report::epsilon::{
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
+use rounds::PlannedStudy;
 
 /// The most values of --at.
 const MOST_AT: usize = 5;
@@ -38,17 +40,6 @@ const MOST_AT: usize = 5;
 /// Passes over every stratum, usually: the grid, the limits, numbers that move between them and their limits, the fresh
 /// rays, and the same for scale-free forms; and the curves. A coarse grid takes more.
 const PASSES: u64 = 11;
-
-/// Passes of a round: the grid, its cheapest point and that point on fresh rays, and the same for scale-free forms.
-const PASSES_OF_ROUND: u64 = 6;
-
-/// Many kernels are first tried on a sixteenth of the rays, and on a fourth. One that surely costs more than those on the
-/// screen gets no more.
-const ROUNDS: [u64; 2] = [16, 4];
-
-/// The most rays of each kind that are tried on each other kind of plane, where there are many kernels: no row of the table shows
-/// them.
-const MOST_ELSEWHERE: u64 = 5_000;
 
 /// The note on the parts of a contract that a scene leaves out.
 const OF_CONTRACT: &str = "of --contract a scene uses only the sides and where rays begin and end; at shared edges \
@@ -250,15 +241,6 @@ struct Tuned<'a> {
     knobs: Vec<Knob>,
 }
 
-/// A kernel in a scalar, and how many rays of each kind it gets.
-struct PlannedStudy<'a> {
-    /// Its place in the record.
-    place: usize,
-    tuned: &'a Tuned<'a>,
-    scalar: ScalarName,
-    rays: u64,
-}
-
 /// The part of the record, and the kernel's nanoseconds a ray.
 type StudiedKernel = (SceneKernelPart, f64);
 
@@ -306,16 +288,6 @@ impl EpsilonRun<'_> {
         all
     }
 
-    /// Lets the progress know how much the rounds are.
-    fn expect_rounds(&self, planned: &[PlannedStudy<'_>]) {
-        if !self.has_rounds {
-            return;
-        }
-        let in_rounds: u64 = ROUNDS.iter().map(|share| self.pass.count / share).sum();
-        let of_each = PASSES_OF_ROUND * self.kinds * in_rounds;
-        self.progress.expect_more(planned.len() as u64 * of_each);
-    }
-
     /// The rounds of the kernels of one scalar and then their studies, which have their cases in common; with the places in
     /// the record.
     fn study_all<F: Advised>(
@@ -333,103 +305,6 @@ impl EpsilonRun<'_> {
             parts.push((study.place, self.study(study, shared)?));
         }
         Ok(parts)
-    }
-
-    /// Takes rays from kernels that are surely not among the first of their scalar.
-    fn hold_rounds<F: Advised>(
-        &self,
-        planned: &mut [PlannedStudy<'_>],
-        shared: Option<&SharedCases<F>>,
-    ) -> Result<(), Failure> {
-        let count = self.pass.count;
-        let mut standing: Vec<&mut PlannedStudy<'_>> = planned.iter_mut().collect();
-        for share in ROUNDS {
-            self.hold_round(&mut standing, count / share, shared)?;
-            standing.retain(|study| study.rays == count);
-        }
-        Ok(())
-    }
-
-    /// One round on so many rays of each kind: those that are out get no more.
-    fn hold_round<F: Advised>(
-        &self,
-        standing: &mut [&mut PlannedStudy<'_>],
-        rays: u64,
-        shared: Option<&SharedCases<F>>,
-    ) -> Result<(), Failure> {
-        if standing.len() <= self.places {
-            return Ok(());
-        }
-        let mut contenders = Vec::with_capacity(standing.len());
-        for study in standing.iter() {
-            contenders.push(self.contender(study.tuned, rays, shared)?);
-        }
-        let out = surely_dearer(&contenders, self.places);
-        for (study, is_out) in standing.iter_mut().zip(out) {
-            if is_out {
-                study.rays = rays;
-            }
-        }
-        self.tell_cheapest(standing, &contenders, rays);
-        Ok(())
-    }
-
-    /// Says which kernels are the cheapest so far.
-    fn tell_cheapest(
-        &self,
-        standing: &[&mut PlannedStudy<'_>],
-        contenders: &[Contender],
-        rays: u64,
-    ) {
-        let mut ranked: Vec<(&str, f64)> = Vec::new();
-        for (study, contender) in standing.iter().zip(contenders) {
-            ranked.push((study.tuned.row.entry.info.name, contender.fresh.cost));
-        }
-        ranked.sort_by(|one, other| one.1.total_cmp(&other.1));
-        let names: Vec<&str> = ranked.iter().take(3).map(|(name, _)| *name).collect();
-        let Some(study) = standing.first() else {
-            return;
-        };
-        self.progress.say(&format!(
-            "{}, after {} rays of each kind the cheapest are {}",
-            study.scalar,
-            group_digits(rays),
-            names.join(", ")
-        ));
-    }
-
-    /// The costs of a kernel on so many rays of each kind.
-    fn contender<F: Advised>(
-        &self,
-        tuned: &Tuned<'_>,
-        rays: u64,
-        shared: Option<&SharedCases<F>>,
-    ) -> Result<Contender, Failure> {
-        let judged = self.judged(tuned)?;
-        let setting = self.setting(tuned, &judged, shared)?;
-        let pass = Pass {
-            count: rays,
-            ..self.pass
-        };
-        Ok(F::contender(&setting, self.costs, pass))
-    }
-
-    /// Lets the progress know how much the studies are.
-    fn expect_studies(&self, planned: &[PlannedStudy<'_>]) {
-        let others = self.studied.others.len() as u64;
-        for study in planned {
-            let passes = PASSES * study.rays + others * self.rays_elsewhere(study);
-            self.progress.expect_more(passes * self.kinds);
-        }
-    }
-
-    /// How many rays of each kind are tried on each other kind of plane.
-    fn rays_elsewhere(&self, study: &PlannedStudy<'_>) -> u64 {
-        if self.has_rounds {
-            study.rays.min(MOST_ELSEWHERE)
-        } else {
-            study.rays
-        }
     }
 
     /// The kernel as it is judged, with what is counted.

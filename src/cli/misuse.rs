@@ -4,68 +4,72 @@ use crate::case::SCENES;
 use crate::family;
 use crate::kernel;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use std::ffi::OsString;
 
 /// Ends of the names of files that are meshes.
 const MESHES: [&str; 5] = [".obj", ".ply", ".stl", ".gltf", ".glb"];
 
-/// A line of advice about a refused command line, if there is something to say that clap does not.
-pub fn advice(error: &clap::Error) -> Option<String> {
+/// A line of advice about refused words of a program, if there is something to say that clap does not.
+pub fn advice(error: &clap::Error, program: &clap::Command, words: &[OsString]) -> Option<String> {
+    let command = called(program, words);
     match error.kind() {
-        ErrorKind::UnknownArgument => {
-            let word = text_of(error, ContextKind::InvalidArg)?;
-            about_argument(&word, &usage_of(error))
-        }
-        ErrorKind::MissingRequiredArgument => {
-            let is_list = usage_of(error).contains("hairline list");
-            is_list.then(|| {
-                "WHAT is kernels, families, contracts, presets, schemes or arithmetics".to_owned()
-            })
-        }
+        ErrorKind::UnknownArgument => match error.get(ContextKind::InvalidArg)? {
+            ContextValue::String(argument) => about_argument(argument, command),
+            _ => None,
+        },
+        ErrorKind::MissingRequiredArgument => choices(command),
         _ => None,
     }
 }
 
-/// Advice about an argument that a command does not take; `usage` names the command.
-fn about_argument(word: &str, usage: &str) -> Option<String> {
-    let flag = word.split('=').next().unwrap_or(word);
-    if flag == "--kernel-lib" || flag == "--kernel-cmd" {
-        return usage.contains("hairline repair").then(|| {
-            "repair changes the source of kernels that hairline knows, and cannot change a library: \
-             `hairline list kernels` names those that are like yours"
-                .to_owned()
-        });
+/// The command that words call: the innermost one of a program.
+fn called<'a>(program: &'a clap::Command, words: &[OsString]) -> &'a clap::Command {
+    let mut command = program;
+    for word in words.iter().skip(1) {
+        let Some(inner) = command.find_subcommand(word) else {
+            break;
+        };
+        command = inner;
     }
-    if word.starts_with('-') {
-        return None;
+    command
+}
+
+/// The values of a command's first argument that has no flag, where it takes only these.
+fn choices(command: &clap::Command) -> Option<String> {
+    let argument = command.get_positionals().next()?;
+    let values = argument.get_possible_values();
+    let names: Vec<&str> = values.iter().map(|value| value.get_name()).collect();
+    let name = argument.get_id().as_str().to_uppercase();
+    (!names.is_empty()).then(|| format!("{name} is one of {}", names.join(", ")))
+}
+
+/// Advice about an argument that a command does not take.
+fn about_argument(argument: &str, command: &clap::Command) -> Option<String> {
+    let is_of_library = ["--kernel-lib", "--kernel-cmd"].contains(&argument);
+    if is_of_library && command.get_name() == "repair" {
+        let advice = "repair changes the source of kernels that hairline knows, and cannot change a library: \
+                      `hairline list kernels` names those that are like yours";
+        return Some(advice.to_owned());
     }
-    let is_scene = SCENES.iter().any(|preset| preset.name == word);
+    let flag = flag_of(argument)?;
+    let takes_flag = command
+        .get_arguments()
+        .any(|known| known.get_long() == Some(flag));
+    takes_flag.then(|| format!("'{argument}' stands behind a flag: --{flag} {argument}"))
+}
+
+/// The flag before which a word is missing: the name of a scene, a kernel or a family, or the file of a mesh.
+fn flag_of(word: &str) -> Option<&'static str> {
     let lower = word.to_lowercase();
-    let flag = if is_scene {
-        "--scene"
+    if SCENES.iter().any(|preset| preset.name == word) {
+        Some("scene")
     } else if kernel::find(word).is_some() {
-        "--kernel"
+        Some("kernel")
     } else if family::find(word).is_some() {
-        "--family"
+        Some("family")
     } else if MESHES.iter().any(|end| lower.ends_with(end)) {
-        "--mesh"
+        Some("mesh")
     } else {
-        return None;
-    };
-    Some(format!("'{word}' stands behind a flag: {flag} {word}"))
-}
-
-/// A part of an error that is one word.
-fn text_of(error: &clap::Error, kind: ContextKind) -> Option<String> {
-    match error.get(kind)? {
-        ContextValue::String(text) => Some(text.clone()),
-        _ => None,
-    }
-}
-
-/// The usage line of the command that was called.
-fn usage_of(error: &clap::Error) -> String {
-    match error.get(ContextKind::Usage) {
-        Some(ContextValue::StyledStr(usage)) => usage.to_string(),
-        _ => String::new(),
+        None
     }
 }

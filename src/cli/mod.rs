@@ -323,8 +323,8 @@ fn print_misuse(error: &clap::Error, words: &[OsString]) {
     } else {
         let _ = error.print();
     }
-    if let Some(advice) = misuse::advice(error) {
-        eprintln!("\nhairline: {advice}");
+    if let Some(advice) = misuse::advice(error, &self::command(), words) {
+        eprintln!("hairline: {advice}");
     }
 }
 

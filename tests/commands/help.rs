@@ -181,3 +181,64 @@ fn help_knows_commands_and_the_words_of_the_screens() {
         text(&output.stderr)
     );
 }
+
+#[test]
+fn a_refused_command_line_says_what_to_type() {
+    let folder = program::scratch("misuse");
+    fs::write(folder.join("mine.cpp"), "int mine;\n").unwrap();
+    fs::write(folder.join("mine.py"), "pass\n").unwrap();
+    for (arguments, expected) in [
+        (
+            &["epsilon", "room"][..],
+            "hairline: 'room' stands behind a flag: --scene room",
+        ),
+        (
+            &["audit", "cramer"],
+            "hairline: 'cramer' stands behind a flag: --kernel cramer",
+        ),
+        (
+            &["epsilon", "a.OBJ"],
+            "hairline: 'a.OBJ' stands behind a flag: --mesh a.OBJ",
+        ),
+        (&["list"], "hairline: WHAT is one of kernels, families, "),
+        (
+            &["boxes", "list"],
+            "hairline: WHAT is one of tests, families, ",
+        ),
+        (
+            &["repair", "--kernel-lib", "mine.so"],
+            "hairline: repair changes the source of kernels that hairline knows, ",
+        ),
+        (
+            &["audit", "--scene", "extent=1000 edge=0.1..2"],
+            "hairline: --scene: extent=1000 edge=0.1..2: '1000 edge=0.1..2' is not a finite number: a comma ",
+        ),
+        (
+            &["audit", "--family", "edge"],
+            "hairline: unknown family 'edge'; did you mean 'edge-exact', 'edge-near' or 'shared-edge'?",
+        ),
+        (
+            &["audit", "--kernel-lib", "mine.cpp"],
+            "hairline: --kernel-lib mine.cpp: this is source code, not a library; build one: c++ -O2 -shared ",
+        ),
+        (
+            &["audit", "--kernel-lib", "mine.py"],
+            "hairline: --kernel-lib mine.py: this is no library; a program answers over its pipes ",
+        ),
+        (
+            &["audit", "-k", "scalar-triple", "--epsilon", "parallel=1"],
+            "hairline: no selected kernel has a gate 'parallel'; there are: edge",
+        ),
+    ] {
+        let (_, error) = program::ends(&folder, arguments, 2);
+        assert!(
+            error.lines().any(|line| line.starts_with(expected)),
+            "{arguments:?}: {error}"
+        );
+    }
+    // A command without the flag does not name it, and no word is an order to the terminal.
+    let (_, error) = program::ends(&folder, &["boxes", "audit", "room"], 2);
+    assert!(!error.contains("stands behind"), "{error}");
+    let (_, error) = program::ends(&folder, &["audit", "\u{1b}[31m.obj"], 2);
+    assert!(!error.contains('\u{1b}'), "{error:?}");
+}

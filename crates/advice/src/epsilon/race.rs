@@ -65,16 +65,16 @@ impl Contender {
     /// The costs of a kernel on a pass.
     pub fn of<F: Scalar>(setting: &Setting<'_, F>, costs: &Costs, pass: Pass<'_>) -> Contender {
         let store = Store::default();
-        let fixed = Setting {
+        let setting = Setting {
             store: Some(&store),
             ..*setting
         };
-        let best = cheapest(&fixed, costs, None, pass);
-        let best =
-            Attempt::new(best.expect("without a limit of errors some point is the cheapest"));
+        let best = cheapest(&setting, costs, None, pass)
+            .expect("without a limit of errors some point is the cheapest");
+        let attempt = [Attempt::new(best)];
         let seen = |pass: Pass<'_>| {
-            let wrong = count_at(&fixed, std::slice::from_ref(&best), pass);
-            CostSeen::of(fixed.counts, costs, &wrong[0])
+            let wrong = count_at(&setting, &attempt, pass);
+            CostSeen::of(setting.counts, costs, &wrong[0])
         };
         let chosen = seen(pass);
         // A point that is as good as the cheapest may cost so much more.

@@ -8,7 +8,7 @@
 //! A kernel runs on the triangles around the edge or vertex. If triangles are needles a rounded ray may
 //! pass into a neighbour instead. So before a crossing without a hit is called a crack, the kernel also
 //! runs on all triangles that share a point with one of these. The crossing counts as *elsewhere*
-//! ([`crate::judge::may_be_elsewhere`]) if one of them reports a hit although the exact line does not meet
+//! (`may_be_elsewhere` of the judge) if one of them reports a hit although the exact line does not meet
 //! it, or if the ray may have passed beside a silhouette. Triangles farther away are not tested, nor are
 //! the neighbours if there are more than [`MOST_AROUND`]. A double needs no such test: it is two hits
 //! around the edge or vertex itself.

@@ -155,7 +155,7 @@ fn crowd(record: &SceneResult, rows: &[(Best, Vec<Best>)]) -> Option<String> {
     let is_alike = |(best, _): &&(Best, Vec<Best>)| !least.is_surely_below(&seen(best));
     let alike = rows.iter().take_while(is_alike).count();
     (1 < alike)
-        .then(|| format!("The first {alike} cost alike: another seed may order them differently."))
+        .then(|| format!("These rays cannot tell the costs of the first {alike} apart: another seed may order them differently."))
 }
 
 fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
