@@ -42,7 +42,7 @@ const ROOMS: [Room; 16] = [
     room("crates/expect/src", Some("expect"), 17_000),
     room("crates/vectors/src", Some("vectors"), 11_900),
     room("crates/repair/src", Some("repair"), 16_800),
-    room("src", None, 102_000),
+    room("src", None, 102_100),
 ];
 
 /// The crates' sources, the lowest first.
