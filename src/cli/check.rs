@@ -1,5 +1,7 @@
 //! `hairline check`: a run held to its expectations.
 
+mod diagnosis;
+
 use super::again;
 use super::exit::{Failure, Status};
 use super::flags::JUDGING;
@@ -10,18 +12,15 @@ use super::plugins;
 use super::prove::demand;
 use super::reporting::{MEASURED, Outputs, RunArguments, self_check};
 use super::settings::{self, Given};
-use crate::audit::{Plan, Row};
-use crate::case::Case;
+use crate::audit::Plan;
 use crate::conformance::locked;
 use crate::expect::{self, BlessError, Expectations};
 use crate::files::InputError;
 use crate::named_file::SizeLimit;
-use crate::record::{
-    ComparisonVerdict, Conformance, Deviation, Method, PartialPart, Record, number_of,
-};
-use crate::report::explain::misused_formula;
+use crate::record::{ComparisonVerdict, Conformance, Method, PartialPart, Record, number_of};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
+use diagnosis::{computed_formulas, short_case};
 use std::path::Path;
 
 /// The JSON Schema of records. A test derives it from the types; the program only prints it.
@@ -29,9 +28,6 @@ const JSON_SCHEMA: &str = include_str!("../../docs/schema/record.json");
 
 /// Where expectations are looked for by default.
 const DEFAULT_FILE: &str = "hairline.expectations.toml";
-
-/// How many unexpected classes of a kernel are tried to find the formula that it computes.
-const TRIED: usize = 10;
 
 /// The flags of `check`: the run, the expectations, and how it is reported.
 #[derive(Args)]
@@ -211,10 +207,6 @@ fn checked(
             conformance.unexpected.len(),
             has_settings,
         ));
-    } else if !arguments.bless && !conformance.unexpected.is_empty() {
-        let wanted = "if what is unexpected is wanted, the same command with --bless --accept-worse takes it as known";
-        let note = conformance.note.map_or(String::new(), |note| note + "; ");
-        conformance.note = Some(note + wanted);
     }
     if arguments.bless {
         let change = conformance.change;
@@ -243,9 +235,10 @@ fn checked(
         }
     }
     drop(lock);
-    conformance.misused = plan
-        .as_ref()
-        .map_or(Vec::new(), |plan| misused(plan, &conformance));
+    if let Some(plan) = &plan {
+        conformance.computes = computed_formulas(plan, &conformance);
+        conformance.short_case = short_case(plan, &conformance);
+    }
     conformance.demand(unproved);
     record.conformance = Some(conformance);
     outputs.write(&record)?;
@@ -258,26 +251,6 @@ fn checked(
             _ => Status::Success,
         },
     )
-}
-
-/// The formulas that kernels of one's own with unexpected answers compute, but for an epsilon or fused products.
-fn misused(plan: &Plan, conformance: &Conformance) -> Vec<String> {
-    let foreign = plan.rows.iter().filter(|row| !row.entry.is_built_in());
-    let sentence = |row: &Row| {
-        let is_of_row = |found: &&Deviation| {
-            (&*found.kernel, &found.set) == (row.entry.info.name, &row.set)
-                && !found.finding.is_failure()
-        };
-        let found = conformance.unexpected.iter().filter(is_of_row);
-        let mut shown = found
-            .filter_map(|found| Some((found, found.bits.as_ref()?)))
-            .take(TRIED);
-        let formula = shown.find_map(|(found, bits)| {
-            in_named_scalar!(found.scalar, F => misused_formula(&Case::<F>::from_hex(bits)?, row))
-        });
-        Some(format!("{}: {}", row.label(), formula?))
-    };
-    foreign.filter_map(sentence).collect()
 }
 
 /// The text of a file of expectations, or of its lock.

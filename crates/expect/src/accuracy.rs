@@ -14,6 +14,9 @@ const OTHER_CASES: f64 = 2.0;
 /// Two samples with numbers of hits that differ by more than this share are of other cases.
 const SAME_HITS: f64 = 0.1;
 
+/// Errors of more ulps than this are told by their first digits.
+const LARGE: f64 = 1000.0;
+
 /// Errors of at most this many ulps are those of one rounding.
 const ROUNDED: f64 = 0.5;
 
@@ -155,8 +158,13 @@ fn trend(old: f64, new: f64, factor: f64) -> Option<Trend> {
     }
 }
 
+/// An error with three digits after the point, or three in all where it is large.
 fn ulps(error: f64) -> String {
-    format!("{error:.3} ulps")
+    if error < LARGE {
+        format!("{error:.3} ulps")
+    } else {
+        format!("{error:.2e} ulps")
+    }
 }
 
 #[cfg(test)]

@@ -45,6 +45,8 @@ pub fn compare(
         tail: tail(keys.len()),
     };
     let results = result.by_place();
+    // Classes with as many wrong answers as known, but not on the same cases.
+    let mut on_other_cases = Vec::new();
     let mut conformance = Conformance {
         method,
         is_by_family: same_plan && known.target.is_none(),
@@ -100,19 +102,33 @@ pub fn compare(
                 let repaired = repaired(entries, &all, key).filter(|_| same_plan);
                 change.newly_judged += u64::from(repaired.is_some());
                 deviation.expected += &repaired.unwrap_or_default();
-                *match entry {
-                    None => &mut change.new,
-                    Some(entry) if same_plan && is_as_many(&entry.amount, &rate) => {
-                        &mut change.other_cases
-                    }
-                    Some(_) => &mut change.worse,
-                } += 1;
                 if entry.is_some() {
                     show(&mut deviation, CaseChange::New, shown(CaseChange::New));
                 }
-                conformance.unexpected.push(deviation);
+                let list = match entry {
+                    None => {
+                        change.new += 1;
+                        &mut conformance.unexpected
+                    }
+                    Some(entry) if same_plan && is_as_many(&entry.amount, &rate) => {
+                        change.other_cases += 1;
+                        &mut on_other_cases
+                    }
+                    Some(_) => {
+                        change.worse += 1;
+                        &mut conformance.unexpected
+                    }
+                };
+                list.push(deviation);
             }
         }
+    }
+    for deviation in on_other_cases {
+        let list = match is_improved(&conformance, &deviation.key()) {
+            true => &mut conformance.stale,
+            false => &mut conformance.unexpected,
+        };
+        list.push(deviation);
     }
     conformance
         .unexpected
@@ -125,6 +141,32 @@ pub fn compare(
     let target = known.target.filter(|_| same_plan);
     conformance.add_errors(target.map_or(Vec::new(), |target| error_changes(result, target)));
     conformance
+}
+
+/// True if a row has fewer wrong answers than known, and more in no class: then classes with as many on other cases are part
+/// of an improvement.
+fn is_improved(conformance: &Conformance, key: &Key) -> bool {
+    let is_of_row = |found: &&Deviation| found.key().is_of_row(key);
+    let has_fewer = |found: &&Deviation| {
+        let known = found.expected_count;
+        known.is_some_and(|known| found.found.count < known)
+    };
+    let has_more = |found: &&Deviation| {
+        found
+            .expected_count
+            .is_none_or(|known| known < found.found.count)
+    };
+    let is_better = conformance
+        .stale
+        .iter()
+        .filter(is_of_row)
+        .any(|found| has_fewer(&found));
+    let is_worse = conformance
+        .unexpected
+        .iter()
+        .filter(is_of_row)
+        .any(|found| has_more(&found));
+    is_better && !is_worse
 }
 
 /// True if a plan leaves out the kernel, the scalar or the family: then the expectation is about

@@ -85,7 +85,8 @@ pub(super) fn changed_rows(plan: &PlanPart, known: &LockedTarget) -> Vec<RowChan
 fn changes(row: &RowPart, plan: &PlanPart, known: &LockedTarget) -> Vec<RowChange> {
     let now = RowSettings::of(row);
     let change = |what: &str, before: &str, now: &str| RowChange {
-        row: row.label(),
+        kernel: row.kernel.clone(),
+        set: row.set.clone(),
         what: what.to_owned(),
         before: before.to_owned(),
         now: now.to_owned(),

@@ -41,12 +41,18 @@ pub fn parse<F: Float>(text: &str) -> Result<F, String> {
 /// shortest decimal of the value as an `f64`, and for what JSON has no number the strings `"nan"`,
 /// `"inf"` and `"-inf"`.
 pub fn write<F: Float>(value: F) -> String {
-    let value = value.to_f64();
-    if value.is_nan() {
+    write_shortest(value.to_f64())
+}
+
+/// JSON text that reads back to the very same float where it is read in its own scalar, as all commands do: the shortest
+/// decimal that does so.
+pub fn write_shortest<F: Float>(value: F) -> String {
+    let size = value.to_f64().abs();
+    if size.is_nan() {
         "\"nan\"".to_owned()
-    } else if value.is_infinite() {
+    } else if size.is_infinite() {
         format!("\"{value}\"")
-    } else if value == 0.0 {
+    } else if size == 0.0 {
         // `-0` is an integer to some readers, and loses its sign.
         if value.is_sign_negative() {
             "-0.0"
@@ -54,7 +60,7 @@ pub fn write<F: Float>(value: F) -> String {
             "0"
         }
         .to_owned()
-    } else if (1e-5..1e15).contains(&value.abs()) {
+    } else if (1e-5..1e15).contains(&size) {
         value.to_string()
     } else {
         format!("{value:e}")

@@ -1,5 +1,11 @@
 //! The part of a record that says how a run compares with what was expected of it.
 
+mod beside;
+mod net;
+
+pub use beside::*;
+pub use net::NetFinding;
+
 use crate::arith::ScalarName;
 use crate::class::FindingClass;
 use crate::key::Key;
@@ -24,9 +30,12 @@ pub struct Conformance {
     /// A note on what was not compared, and why.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// The formulas that wrong kernels of one's own compute with another epsilon or with fused products, in words.
+    /// The formulas that wrong kernels of one's own compute with another epsilon or with fused products.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub misused: Vec<String>,
+    pub computes: Vec<ComputedFormula>,
+    /// A short case of what got worse.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub short_case: Option<ShortCase>,
     /// The changes, added up.
     pub change: NetChange,
     /// Kernel rows that are set to something else than what the expectations are of.
@@ -115,75 +124,6 @@ impl fmt::Display for NetChange {
     }
 }
 
-/// A setting of a kernel row that is not what the expectations are of.
-#[apply(part!)]
-#[derive(PartialEq, Eq)]
-pub struct RowChange {
-    /// `kernel (epsilons)`.
-    pub row: String,
-    /// `epsilon NAME`, `epsilons` if they have another name, or `contract`, its band included.
-    pub what: String,
-    /// As it was.
-    pub before: String,
-    /// As it is.
-    pub now: String,
-}
-
-impl fmt::Display for RowChange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RowChange {
-            row,
-            what,
-            before,
-            now,
-        } = self;
-        let is = if what == "epsilons" { "are" } else { "is" };
-        let none = "nothing of it";
-        let [now, before] = [
-            apart(now, before, ", ", none),
-            apart(before, now, ", ", none),
-        ];
-        write!(f, "{row}: its {what} {is} now {now}; blessed with {before}")
-    }
-}
-
-/// The parts of a list that another list does not have; other words if there is none.
-pub fn apart(list: &str, other: &str, between: &str, none: &str) -> String {
-    let others: Vec<&str> = other.split(between).collect();
-    let parts: Vec<&str> = list
-        .split(between)
-        .filter(|part| !others.contains(part))
-        .collect();
-    let parts = parts.join(between);
-    if parts.is_empty() {
-        none.to_owned()
-    } else {
-        parts
-    }
-}
-
-/// A quantile of the errors of right hits that is not the one of the blessed run.
-#[apply(part!)]
-pub struct ErrorChange {
-    /// Which quantile of which value, of which row in which scalar.
-    pub what: String,
-    /// As it was.
-    pub before: String,
-    /// As it is.
-    pub now: String,
-    /// True if it is larger.
-    pub is_worse: bool,
-}
-
-impl fmt::Display for ErrorChange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ErrorChange {
-            what, before, now, ..
-        } = self;
-        write!(f, "{what} {now}; blessed with {before}")
-    }
-}
-
 /// How counts are compared with expectations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -195,58 +135,6 @@ pub enum Method {
     /// They are others: rates of samples are compared by their intervals.
     Intervals,
 }
-
-/// A demand on a proof that is not met.
-#[apply(part!)]
-pub struct Unproved {
-    /// The kernel's name.
-    pub kernel: String,
-    /// The scalar.
-    pub scalar: ScalarName,
-    /// The gate, or `watertight`.
-    pub gate: String,
-    /// The demand: a bound in units of u, or `true`.
-    pub demanded: String,
-    /// The reason why the demand is not met.
-    pub why: String,
-    /// Shows what is proved.
-    pub command: String,
-}
-
-impl Unproved {
-    /// In place of a row: a proof is of every epsilon.
-    pub fn row(&self) -> String {
-        format!("{} (any epsilon)", self.kernel)
-    }
-
-    /// In place of a family.
-    pub const FAMILY: &str = "proof";
-}
-
-impl fmt::Display for Unproved {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Unproved {
-            kernel,
-            scalar,
-            gate,
-            demanded,
-            why,
-            ..
-        } = self;
-        match gate.as_str() {
-            WATERTIGHT => write!(f, "{kernel} {scalar} must be proved watertight: {why}"),
-            _ => {
-                write!(
-                    f,
-                    "{kernel} {scalar} {gate} must be proved to at most {demanded} u: {why}"
-                )
-            }
-        }
-    }
-}
-
-/// In place of a gate, in a demand.
-pub const WATERTIGHT: &str = "watertight";
 
 /// A class of disagreement beside what was expected of it.
 #[apply(part!)]

@@ -227,26 +227,11 @@ fn parse_pattern<F: Float>(value: &str) -> Result<F, String> {
 
 /// The case and what stands beside it, with its bit patterns.
 pub fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
-    let mut fields = Vec::new();
-    let mut bits = Vec::new();
     let text = |text: &String| Value::from(text.as_str()).to_string();
-    let hex = |number: F| format!("\"{}\"", number.hex());
+    let mut fields = Vec::new();
     fields.extend(stored.name.as_ref().map(|name| ("name", text(name))));
-    fields.push(("scalar", format!("\"{}\"", F::NAME)));
-    for (field, vector) in VECTORS.into_iter().zip(case.vectors()) {
-        fields.push((field, format!("[{}]", vector.map(number::write).join(","))));
-        bits.push((field, format!("[{}]", vector.map(hex).join(","))));
-    }
-    let ends = [
-        ("t_min", case.ray.t_min, F::zero()),
-        ("t_max", case.ray.t_max, F::infinity()),
-    ];
-    for (field, end, default) in ends {
-        if end.to_bits() != default.to_bits() {
-            fields.push((field, number::write(end)));
-            bits.push((field, hex(end)));
-        }
-    }
+    fields.push(scalar::<F>());
+    fields.extend(numbers(case, number::write));
     if stored.is_secondary {
         fields.push(("starts", format!("\"{ON_TRIANGLE}\"")));
     }
@@ -256,6 +241,7 @@ pub fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
             .as_ref()
             .map(|truth| ("truth", truth.to_json())),
     );
+    let bits = numbers(case, |number| format!("\"{}\"", number.hex()));
     fields.push(("bits", json::object(bits)));
     fields.extend(stored.why.as_ref().map(|why| ("why", text(why))));
     fields.extend(stored.url.as_ref().map(|url| ("url", text(url))));
@@ -266,6 +252,35 @@ pub fn write<F: Float>(stored: &StoredCase, case: &Case<F>) -> String {
             .map(|found| ("found", found.to_json())),
     );
     json::object(fields)
+}
+
+/// The numbers of a case alone, in the fewest digits that its scalar needs.
+pub fn write_bare<F: Float>(case: &Case<F>) -> String {
+    let mut fields = vec![scalar::<F>()];
+    fields.extend(numbers(case, number::write_shortest));
+    json::object(fields)
+}
+
+fn scalar<F: Float>() -> (&'static str, String) {
+    ("scalar", format!("\"{}\"", F::NAME))
+}
+
+/// The vectors of a case, and the ends of its interval that are not the default ones, as texts.
+fn numbers<F: Float>(case: &Case<F>, text: impl Fn(F) -> String) -> Vec<(&'static str, String)> {
+    let mut fields: Vec<(&str, String)> = Vec::new();
+    for (field, vector) in VECTORS.into_iter().zip(case.vectors()) {
+        fields.push((field, format!("[{}]", vector.map(&text).join(","))));
+    }
+    let ends = [
+        ("t_min", case.ray.t_min, F::zero()),
+        ("t_max", case.ray.t_max, F::infinity()),
+    ];
+    for (field, end, default) in ends {
+        if end.to_bits() != default.to_bits() {
+            fields.push((field, text(end)));
+        }
+    }
+    fields
 }
 
 #[cfg(test)]

@@ -39,11 +39,7 @@ pub fn write_case(stored: &StoredCase) -> String {
 
 /// A case as `hairline explain` takes it: without its bit patterns, because its numbers say the same.
 pub fn bare_case(case: impl Into<AnyCase>) -> String {
-    let line = write_case(&StoredCase::of(case.into()));
-    match line.split_once(",\"bits\"") {
-        Some((numbers, _)) => format!("{numbers}}}"),
-        None => line,
-    }
+    either_scalar!(&case.into(), case => case_json::write_bare(case))
 }
 
 #[cfg(test)]

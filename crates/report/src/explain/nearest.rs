@@ -10,7 +10,7 @@ use crate::case::Case;
 use crate::judge::asked;
 use crate::kernel::{KERNELS, Scalar, Verdict};
 use crate::oracle;
-use hairline_record::group_digits;
+use hairline_record::{ComputedFormula, group_digits};
 
 /// The ending of a name that says that products are fused into sums.
 const FUSED: &str = "+fma";
@@ -97,22 +97,25 @@ pub(super) fn nearest<F: Scalar>(
 }
 
 /// The built-in formula that a wrong kernel computes with another epsilon or with fused products, as its answers to cases like
-/// a given one show: `moller-trumbore with parallel between 9.8e-5 and 1.04e-4 in place of 1e-6`; none where neither is seen.
-pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<String> {
+/// a given one show; none where neither is seen.
+pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<ComputedFormula> {
     let nearby = Nearby::of(case, row)?;
     let formula = nearest_formula(row, &nearby)?;
+    let epsilon = other_epsilon(row, &formula.row, &nearby);
     let name = formula.row.entry.info.name;
-    let other = other_epsilon(row, &formula.row, &nearby);
-    if other.is_none() && !name.ends_with(FUSED) {
+    let plain = name.strip_suffix(FUSED);
+    if epsilon.is_none() && plain.is_none() {
         return None;
     }
-    let how = other.map_or(String::new(), |other| format!(" with {other}"));
-    let same = group_digits(formula.same as u64);
-    let hits = group_digits(formula.hits as u64);
-    Some(format!(
-        "it computes {}{how}: {same} of {hits} hits have its bits",
-        in_words(name)
-    ))
+    Some(ComputedFormula {
+        kernel: row.entry.info.name.to_owned(),
+        set: row.set.clone(),
+        formula: plain.unwrap_or(name).to_owned(),
+        is_fused: plain.is_some(),
+        epsilon,
+        same: formula.same as u64,
+        hits: formula.hits as u64,
+    })
 }
 
 /// The formula with the most hits of the same values, if they are enough to know it by: a kernel's own, or the same with fused

@@ -6,6 +6,7 @@
 mod close_up;
 mod columns;
 mod extremes;
+mod headline;
 mod junit;
 mod kernel;
 mod lines;
@@ -13,6 +14,7 @@ mod page;
 mod pool;
 mod ranking;
 mod relations;
+mod remedies;
 mod row_view;
 mod sarif;
 mod screen;

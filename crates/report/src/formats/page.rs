@@ -1,9 +1,9 @@
 //! A record of an audit or a check as a page: the answer, the rest of the screen, and folded everything.
 
 use super::columns::Column;
+use super::headline;
 use super::kernel;
 use super::lines::lines;
-use super::relations;
 use super::row_view::RowView;
 use super::{ranking, screen, verdict};
 use crate::mesh;
@@ -28,8 +28,8 @@ impl Paged for Record {
         match &self.conformance {
             None => page.blocks = on_screen,
             Some(conformance) => {
-                let verdict = super::capitalised(&conformance.summary());
-                let run_title = std::mem::replace(&mut page.title, diagnosed(self, verdict));
+                let headline = headline::headline(self, conformance);
+                let run_title = std::mem::replace(&mut page.title, headline);
                 page.tone = match conformance.verdict {
                     ComparisonVerdict::Conforms => Tone::Good,
                     ComparisonVerdict::Disagreements | ComparisonVerdict::Unsteady => Tone::Bad,
@@ -71,21 +71,6 @@ impl Paged for Record {
             .push(Block::Details("About this run".to_owned(), about(self)));
         page
     }
-}
-
-/// The verdict of a check, after the mistakes that explain why a run does not conform.
-fn diagnosed(record: &Record, verdict: String) -> String {
-    let failed = record
-        .conformance
-        .as_ref()
-        .filter(|it| !it.unexpected.is_empty());
-    let Some(conformance) = failed else {
-        return verdict;
-    };
-    let mut sentences = relations::sentences(record);
-    sentences.extend(conformance.misused.iter().cloned());
-    sentences.push(verdict);
-    sentences.join(". ")
 }
 
 /// How the record was made, and how it is made again.

@@ -15,6 +15,17 @@ pub(super) fn sentences(record: &Record) -> Vec<String> {
     rows.filter_map(of_row).collect()
 }
 
+/// Each mistake in few words, without counts: `mine: t is twice the exact t`.
+pub(super) fn mistakes(record: &Record) -> Vec<String> {
+    let mut mistakes = Vec::new();
+    for row in &record.result.plan.rows {
+        let known = known(record, row).into_iter();
+        mistakes
+            .extend(known.map(|related| format!("{}: {}", row.kernel, related.relation.about())));
+    }
+    mistakes
+}
+
 /// The relations of a row, its scalars together.
 fn known(record: &Record, row: &RowPart) -> Vec<Related> {
     let totals = record.result.totals.iter();

@@ -197,6 +197,14 @@ impl<R: Paged + Serialize> Format<R> {
 }
 
 impl Item {
+    /// A sentence by itself.
+    pub fn of(text: String) -> Item {
+        Item {
+            text,
+            ..Item::default()
+        }
+    }
+
     /// A finding, and the command that shows it.
     pub fn shown_by(text: String, command: String) -> Item {
         Item {

@@ -5,10 +5,10 @@ use super::*;
 use crate::arith::ScalarName;
 use crate::judge::Class;
 use hairline_record::{
-    ComparisonVerdict, Conformance, Counts, Deviation, ErrorChange, Example, FindingClass,
-    FindingKind, FindingPart, Illustrations, KernelResult, Method, NetChange, PlanPart,
-    PlannedSource, ProofPart, ProvedGate, Provenance, Rate, Record, ResultPart, RowChange, RowPart,
-    SourcePart, Unproved,
+    ComparisonVerdict, ComputedFormula, Conformance, Counts, Deviation, ErrorChange, Example,
+    FindingClass, FindingKind, FindingPart, Illustrations, KernelResult, Method, NetChange,
+    PlanPart, PlannedSource, ProofPart, ProvedGate, Provenance, Rate, Record, ResultPart,
+    RowChange, RowPart, ShortCase, SourcePart, Unproved,
 };
 use std::collections::BTreeMap;
 
@@ -156,10 +156,30 @@ pub fn conformance(deviations: Vec<Deviation>) -> Conformance {
         is_by_family: false,
         expectations: Some(HOSTILE.to_owned()),
         note: Some(HOSTILE.to_owned()),
-        misused: vec![HOSTILE.to_owned()],
+        computes: vec![ComputedFormula {
+            kernel: HOSTILE.to_owned(),
+            set: HOSTILE.to_owned(),
+            formula: HOSTILE.to_owned(),
+            is_fused: true,
+            epsilon: Some(HOSTILE.to_owned()),
+            same: 1,
+            hits: 2,
+        }],
+        short_case: Some(ShortCase {
+            kernel: HOSTILE.to_owned(),
+            set: HOSTILE.to_owned(),
+            scalar: ScalarName::F32,
+            family: HOSTILE.to_owned(),
+            class: FindingClass::Any,
+            finding: FindingKind::FalseMiss,
+            right: Some(HOSTILE.to_owned()),
+            bits: HOSTILE.to_owned(),
+            command: HOSTILE.to_owned(),
+        }),
         change: NetChange::default(),
         rows: vec![RowChange {
-            row: HOSTILE.to_owned(),
+            kernel: HOSTILE.to_owned(),
+            set: HOSTILE.to_owned(),
             what: HOSTILE.to_owned(),
             before: HOSTILE.to_owned(),
             now: HOSTILE.to_owned(),
