@@ -20,7 +20,7 @@ use crate::named_file::SizeLimit;
 use crate::record::{ComparisonVerdict, Conformance, Method, PartialPart, Record, number_of};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, FromArgMatches, Subcommand};
-use diagnosis::{computed_formulas, short_case};
+use diagnosis::{computed_formulas, short_case, take_over};
 use std::path::Path;
 
 /// The JSON Schema of records. A test derives it from the types; the program only prints it.
@@ -235,9 +235,13 @@ fn checked(
         }
     }
     drop(lock);
-    if let Some(plan) = &plan {
-        conformance.computes = computed_formulas(plan, &conformance);
-        conformance.short_case = short_case(plan, &conformance);
+    match (&plan, record.conformance.take()) {
+        (Some(plan), _) => {
+            conformance.computes = computed_formulas(plan, &conformance);
+            conformance.short_case = short_case(plan, &conformance);
+        }
+        (None, Some(before)) => take_over(before, &mut conformance),
+        (None, None) => {}
     }
     conformance.demand(unproved);
     record.conformance = Some(conformance);

@@ -115,13 +115,19 @@ const FORMATS: &[Format<MapPicture>] = &[
 /// The most pixels of an SVG, which has a shape for each run of them.
 const MOST_SVG_PIXELS: usize = 1 << 18;
 
+/// The width of a PNG, if nothing else is said.
+const DOTS_WIDE: usize = 1024;
+
+/// The most kernels that stand side by side.
+const MOST_ROWS: usize = 4;
+
 /// A picture and what is said about it.
 #[derive(Default)]
 struct MapPicture {
     summary: String,
     svg: String,
     png: Vec<u8>,
-    map: Option<Map>,
+    maps: Vec<Map>,
 }
 
 /// Runs the command.
@@ -142,8 +148,9 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         )));
     }
     let mut picture = either_scalar!(&arguments.input()?, case => arguments.of_case(case))?;
-    if let Some(map) = picture.map.as_ref().filter(|_| wants("png")) {
-        picture.png = map::png(map, arguments.dots(map))?;
+    if let (Some(map), true) = (picture.maps.first(), wants("png")) {
+        let panels = picture.maps.len() + 1;
+        picture.png = map::png(&picture.maps, arguments.dots(map, panels))?;
     }
     let quiet = arguments.quiet || wants("text");
     write_results(outputs, |format, _, out| {
@@ -154,6 +161,12 @@ pub fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         let _ = io::stderr().write_all(printable_lines(&picture.summary).as_bytes());
     }
     Ok(Status::Success)
+}
+
+/// The names of some rows.
+fn labels(rows: &[Row]) -> String {
+    let labels: Vec<String> = rows.iter().map(Row::label).collect();
+    labels.join(", ")
 }
 
 impl MapArguments {
@@ -202,11 +215,19 @@ impl MapArguments {
     }
 
     fn of_case<F: Scalar>(&self, case: &Case<F>) -> Result<MapPicture, Failure> {
-        let row = self.row()?;
-        row.check::<F>()?;
+        let rows = self.rows()?;
+        for row in &rows {
+            row.check::<F>()?;
+        }
         if self.drawing {
-            let svg = map::drawing_document(case, &row)?;
-            let summary = summary::of_drawing(case, &row);
+            let [row] = &rows[..] else {
+                return Err(Failure::usage(format!(
+                    "a drawing is of one kernel with one set of epsilons, and there are {}",
+                    labels(&rows)
+                )));
+            };
+            let svg = map::drawing_document(case, row)?;
+            let summary = summary::of_drawing(case, row);
             return Ok(MapPicture {
                 summary,
                 svg,
@@ -217,42 +238,46 @@ impl MapArguments {
         let (axes, step, size) = (self.axes()?, self.step()?, self.size()?);
         let grid = map::grid_of_case(case, part, axes, step, size)?;
         let pixels = size[0] * size[1];
-        let progress = Progress::new(pixels as u64, "pixels", self.quiet);
-        let map = map::of_kernel(case, &row, &grid, &progress)?;
-        let again = |pixel| summary::explain(&map::case_at(case, &grid, pixel), &row);
-        let summary = summary::of_map(&map, &grid, &again);
+        let all_pixels = (pixels * rows.len()) as u64;
+        let progress = Progress::new(all_pixels, "pixels", self.quiet);
+        let mut maps = Vec::new();
+        let mut summary = String::new();
+        for row in &rows {
+            let map = map::of_kernel(case, row, &grid, &progress)?;
+            let again = |pixel| summary::explain(&map::case_at(case, &grid, pixel), row);
+            summary += &summary::of_map(&map, &grid, &again);
+            maps.push(map);
+        }
+        map::compared(&maps)?;
         let is_small = pixels <= MOST_SVG_PIXELS;
         let svg = if is_small {
-            map::svg_document(&map)
+            map::svg_document(&maps)
         } else {
             String::new()
         };
         Ok(MapPicture {
             summary,
             svg,
-            map: Some(map),
+            maps,
             ..MapPicture::default()
         })
     }
 
-    /// The one kernel with its epsilons.
-    fn row(&self) -> Result<Row, Failure> {
+    /// The kernels with their epsilons, a panel each.
+    fn rows(&self) -> Result<Vec<Row>, Failure> {
         if !self.kernels.names_kernels() {
-            let message =
-                "a map is of one kernel: choose it by --kernel (see `hairline list kernels`)";
+            let message = "a map is of one kernel, or of a few: choose them by --kernel (see `hairline list kernels`)";
             return Err(Failure::usage(message));
         }
-        let mut rows = self.kernels.rows()?;
-        if rows.len() != 1 {
-            let labels: Vec<String> = rows.iter().map(Row::label).collect();
-            let epsilons: Vec<String> = rows.iter().filter_map(Row::epsilon_argument).collect();
+        let rows = self.kernels.rows()?;
+        if MOST_ROWS < rows.len() {
             return Err(Failure::usage(format!(
-                "a map is of one kernel with one set of epsilons, and there are {}; add --epsilon {}",
-                labels.join(", "),
-                epsilons.join(" or --epsilon ")
+                "a map has room for {MOST_ROWS} kernels, each with one set of epsilons, and there are {}: {}",
+                rows.len(),
+                labels(&rows)
             )));
         }
-        Ok(rows.swap_remove(0))
+        Ok(rows)
     }
 
     /// Which vector is varied.
@@ -326,9 +351,10 @@ impl MapArguments {
             })
     }
 
-    /// The side of a pixel in a PNG.
-    fn dots(&self, map: &Map) -> usize {
+    /// The side of a pixel in a PNG of so many panels.
+    fn dots(&self, map: &Map, panels: usize) -> usize {
         let [width, height] = map.size();
-        self.dots.unwrap_or((512 / width.max(height)).max(1))
+        let fitting = DOTS_WIDE / panels / width.max(height);
+        self.dots.unwrap_or(fitting.max(1))
     }
 }

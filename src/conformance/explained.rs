@@ -54,7 +54,7 @@ pub(super) fn mapped(row: &Row, name: &str) -> Result<String, Error> {
         let grid = map::grid_of_case(case, map::CaseVector::Origin, None, None, [128; 2])?;
         map::of_kernel(case, row, &grid, &Unobserved)?
     });
-    Ok(map::svg_document(&drawn))
+    Ok(map::svg_document(&[drawn]))
 }
 
 /// The error of a name that leads to no cases.

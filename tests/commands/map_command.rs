@@ -153,23 +153,71 @@ fn a_drawing_is_an_svg_with_the_exact_words() {
     );
 }
 
+/// A triangle met from behind, which only some kernels promise to hit.
+const BACK: &str = "{\"scalar\":\"f32\",\"origin\":[0.2,0.2,-1],\"direction\":[0,0,1],\"a\":[0,0,0],\"b\":[1,0,0],\"c\":[0,1,0]}";
+
+#[test]
+fn several_kernels_stand_side_by_side() {
+    let folder = scratch("map-several");
+    let words = [
+        "map",
+        "--at",
+        "vertex",
+        "--kernel",
+        "moller-trumbore,woop-watertight",
+        "--size",
+        "16",
+    ];
+    let files = ["-o", "m.svg", "-o", "m.png", "-o", "m.txt"];
+    ends(&folder, &[&words[..], &files].concat(), 0);
+    let svg = fs::read_to_string(folder.join("m.svg")).unwrap();
+    assert_eq!(svg.matches("shape-rendering=\"crispEdges\"").count(), 3);
+    for name in [
+        "moller-trumbore (source)",
+        "woop-watertight (source)",
+        "exact",
+    ] {
+        assert!(svg.contains(&format!(">{name}</text>")), "{name}: {svg}");
+    }
+    let text = fs::read_to_string(folder.join("m.txt")).unwrap();
+    assert_eq!(text.matches("16 x 16 pixels").count(), 2, "{text}");
+    // Three panels and two gaps of eight dots.
+    let png = fs::read(folder.join("m.png")).unwrap();
+    let wide = u32::from_be_bytes(png[16..20].try_into().unwrap());
+    assert_eq!(wide, 3 * 16 * (1024 / 3 / 16) + 2 * 8);
+}
+
 #[test]
 fn wrong_usage_and_bad_input_end_with_their_codes() {
     let folder = scratch("map-refused");
     fs::create_dir(folder.join("taken.svg")).unwrap();
     let kernel = ["--kernel", "cramer"];
     let cases: &[(&[&str], i32, &str)] = &[
-        (&["map"], 2, "choose it by --kernel"),
+        (&["map"], 2, "choose them by --kernel"),
         (&["map", "--kernel", "cramr"], 2, "did you mean 'cramer'?"),
         (
-            &["map", "--kernel", "plane-inside-out"],
+            &["map", "--kernel", "plane-inside-out", "--drawing"],
             2,
-            "add --epsilon parallel=0",
+            "there are plane-inside-out (zero), plane-inside-out (1e-6)",
         ),
         (
-            &["map", "--kernel", "cramer,plucker"],
+            &[
+                "map",
+                "--kernel",
+                "cramer,plucker,plane-inside-out,half-space",
+            ],
             2,
-            "a map is of one kernel",
+            "a map has room for 4 kernels",
+        ),
+        (
+            &[
+                "map",
+                BACK,
+                "--kernel",
+                "moller-trumbore,moller-trumbore-culling",
+            ],
+            2,
+            "judge them by one contract",
         ),
         (
             &["map", "--at", "edges", "--kernel", "cramer"],

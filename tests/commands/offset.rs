@@ -249,7 +249,9 @@ fn first_rays_at_a_mesh_leave_its_own_triangles() {
     }
     let (screen, _) = ends(&folder, &[&["offset"], &flags[..], &["-q"]].concat(), 0);
     assert!(
-        screen.starts_with("Where new rays must start in a.obj (extent="),
+        flat(&screen).starts_with(
+            "Start new rays with normal=2.5e-7: start at p + n * 2.5e-7 in a.obj (extent="
+        ),
         "{screen}"
     );
     let (_, error) = ends(

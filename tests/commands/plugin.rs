@@ -632,7 +632,8 @@ fn a_kernel_whose_second_answer_is_another_is_named_and_is_no_regression() {
     check("SEGFAULT", bless, 0);
     let [out, _] = check("UNSTEADY", &["--format", "text"], 65).unwrap();
     let expected = [
-        "Cannot be compared: answers of 1 kernel row differ from run to run, 0 unexpected disagreements, 0 stale ",
+        "Cannot be compared: answers of ",
+        " differ from run to run ",
         "expected the same answer each time, but answers differ from run to run: asked again, the case shown is none",
         "hairline explain 'outside@3/f64/-/1/",
     ];

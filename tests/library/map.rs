@@ -230,7 +230,7 @@ fn the_ends_of_the_range_are_free_and_no_panic() {
     )
     .unwrap();
     assert_eq!(map.exact_legend(), [(Ink::Free, "nothing is asked", 45)]);
-    assert!(!map::svg(&map).contains("NaN,"));
+    assert!(!map::svg(std::slice::from_ref(&map)).contains("NaN,"));
     let grid = grid_of_case(
         &case,
         CaseVector::Direction,
@@ -270,7 +270,7 @@ fn vertex_map() -> Map {
 fn a_png_has_the_colours_of_both_panels() {
     let map = vertex_map();
     for scale in [1, 3] {
-        let bytes = map::png(&map, scale).unwrap();
+        let bytes = map::png(std::slice::from_ref(&map), scale).unwrap();
         let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
         decoder.set_transformations(png::Transformations::EXPAND);
         let mut reader = decoder.read_info().unwrap();
@@ -295,7 +295,7 @@ fn a_png_has_the_colours_of_both_panels() {
     }
     for scale in [0, 1 << 13, usize::MAX] {
         assert!(
-            map::png(&map, scale)
+            map::png(std::slice::from_ref(&map), scale)
                 .unwrap_err()
                 .to_string()
                 .contains("2^26"),
@@ -335,7 +335,7 @@ fn painted(panel: &str, [width, height]: [usize; 2]) -> Vec<String> {
 #[test]
 fn an_svg_paints_every_pixel_and_may_stand_beside_others_in_a_page() {
     let map = vertex_map();
-    let svg = map::svg(&map);
+    let svg = map::svg(std::slice::from_ref(&map));
     let panels: Vec<&str> = svg
         .split("shape-rendering=\"crispEdges\">")
         .skip(1)
@@ -355,7 +355,7 @@ fn an_svg_paints_every_pixel_and_may_stand_beside_others_in_a_page() {
     assert!(!svg.contains(" id=") && !svg.contains("<style") && !svg.contains("url("));
     assert!(svg.contains("<title>moller-trumbore (source) in f32"));
     assert!(svg.contains("<desc>A map of 48 by 32 pixels, "));
-    assert!(map::svg_document(&map).contains("prefers-color-scheme"));
+    assert!(map::svg_document(&[map]).contains("prefers-color-scheme"));
 }
 
 #[test]

@@ -59,6 +59,28 @@ pub(super) fn short_case(plan: &Plan, conformance: &Conformance) -> Option<Short
     shortened.min_by_key(|short| short.command.len())
 }
 
+/// Takes over what an earlier comparison of the same record found out, as far as it is about what got worse now.
+pub(super) fn take_over(before: Conformance, conformance: &mut Conformance) {
+    let unexpected = &conformance.unexpected;
+    let is_worse = |computed: &ComputedFormula| {
+        let is_of =
+            |found: &Deviation| (&found.kernel, &found.set) == (&computed.kernel, &computed.set);
+        unexpected.iter().any(is_of)
+    };
+    let is_still_worse = |short: &ShortCase| {
+        let place = (&short.kernel, &short.set, short.scalar, &short.family);
+        let kind = (short.class, short.finding);
+        unexpected.iter().any(|found| {
+            (&found.kernel, &found.set, found.scalar, &found.family) == place
+                && (found.class, found.finding) == kind
+        })
+    };
+    let computes = before.computes.into_iter().filter(is_worse).collect();
+    let short_case = before.short_case.filter(is_still_worse);
+    conformance.computes = computes;
+    conformance.short_case = short_case;
+}
+
 /// True if a deviation is of a row, and not a failure: a kernel that crashes is not asked hundreds of times.
 fn is_of(found: &Deviation, row: &Row) -> bool {
     (&*found.kernel, &found.set) == (row.entry.info.name, &row.set) && !found.finding.is_failure()

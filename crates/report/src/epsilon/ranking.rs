@@ -55,6 +55,7 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     let all = ScalarName::ALL.map(|scalar| (scalar, ranked(record, scalar)));
     let scalars = all.iter().filter(|(_, rows)| !rows.is_empty()).count();
     let most = rows_on_screen(scalars);
+    let mut winners: Vec<(ScalarName, String)> = Vec::new();
     for (scalar, rows) in &all {
         let Some(best) = rows.first() else { continue };
         blocks.extend(
@@ -73,7 +74,13 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
         let heads = heads.map(Head::of).into();
         let all = rows.iter().map(|one| row(whole, one)).collect();
         blocks.push(Block::Table(Table::new(heads, all).at_most(most)));
-        blocks.extend(crowd(record, rows).map(Block::Text));
+        let alike = alike_with_first(record, rows);
+        if 1 < alike {
+            blocks.push(Block::Text(format!(
+                "These rays cannot tell the costs of the first {alike} apart: another seed may order them differently."
+            )));
+        }
+        winners.push((*scalar, winner(rows, alike)));
     }
     let shown = || {
         all.iter()
@@ -116,8 +123,9 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     Page {
         command: "epsilon",
         title: format!(
-            "Kernels with their best epsilons in {scene}{}, fewest wrong answers first",
-            of_unit(&record.unit)
+            "Fewest wrong answers in {scene}{}: {}",
+            of_unit(&record.unit),
+            in_words(&winners)
         ),
         blocks,
         ..Page::default()
@@ -143,19 +151,45 @@ fn ranked<'a>(record: &'a SceneResult, scalar: ScalarName) -> Vec<(Best<'a>, Vec
     })
 }
 
-/// How many kernels cost no more than the first one, as far as these rays can tell; none if that is the first alone.
-fn crowd(record: &SceneResult, rows: &[(Best, Vec<Best>)]) -> Option<String> {
+/// The first kernel of a table, and how many others these rays cannot tell from it.
+fn winner(rows: &[(Best, Vec<Best>)], alike: usize) -> String {
+    let first = rows.first().map_or("", |((part, _), _)| &*part.kernel);
+    match alike {
+        0 | 1 => first.to_owned(),
+        2 => format!("{first}, and 1 other that is about as good"),
+        alike => format!("{first}, and {} others that are about as good", alike - 1),
+    }
+}
+
+/// The winner in each scalar, once if it is the same.
+fn in_words(winners: &[(ScalarName, String)]) -> String {
+    match winners {
+        [(one, first), (other, second)] if first == second => {
+            format!("{first} ({one} and {other})")
+        }
+        winners => {
+            let words: Vec<String> = winners
+                .iter()
+                .map(|(scalar, winner)| format!("{winner} ({scalar})"))
+                .collect();
+            words.join("; ")
+        }
+    }
+}
+
+/// How many kernels cost no more than the first one, as far as these rays can tell, with that one.
+fn alike_with_first(record: &SceneResult, rows: &[(Best, Vec<Best>)]) -> usize {
     let costs = Costs::by_kind(|kind| record.cost(kind));
     let seen = |(part, best): &Best| {
         let wrong: Vec<Trials> = best.wrong.iter().map(Rate::trials).collect();
         CostSeen::of(&part.counts, &costs, &wrong)
     };
-    let (first, _) = rows.first()?;
+    let Some((first, _)) = rows.first() else {
+        return 0;
+    };
     let least = seen(first);
     let is_alike = |(best, _): &&(Best, Vec<Best>)| !least.is_surely_below(&seen(best));
-    let alike = rows.iter().take_while(is_alike).count();
-    (1 < alike)
-        .then(|| format!("These rays cannot tell the costs of the first {alike} apart: another seed may order them differently."))
+    rows.iter().take_while(is_alike).count()
 }
 
 fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {

@@ -176,6 +176,7 @@ fn kernels<'a>(names: impl Iterator<Item = &'a str>) -> String {
     match all[..] {
         [] => String::new(),
         [only] => only.to_owned(),
+        [first, _] => format!("{first} and 1 other"),
         [first, ..] => format!("{first} and {} others", all.len() - 1),
     }
 }

@@ -3,7 +3,8 @@
 use super::relations;
 use crate::page::Item;
 use hairline_record::{
-    ComputedFormula, Conformance, Deviation, Method, Record, RowChange, group_digits, number_of,
+    ComparisonVerdict, ComputedFormula, Conformance, Deviation, Method, Record, RowChange,
+    group_digits, number_of,
 };
 use std::collections::BTreeMap;
 
@@ -12,10 +13,18 @@ const ACCEPT: &str = "the same command with --bless --accept-worse takes it as k
 
 /// What to do, a sentence or two for each reason; nothing where nothing got worse.
 pub(super) fn remedies(record: &Record, conformance: &Conformance) -> Vec<Item> {
-    if conformance.unexpected.is_empty() || conformance.expectations.is_none() {
+    let is_worse = conformance.verdict == ComparisonVerdict::Disagreements;
+    if !is_worse || conformance.expectations.is_none() {
         return Vec::new();
     }
     let mut texts = Vec::new();
+    let has_larger_errors = conformance.errors.iter().any(|change| change.is_worse);
+    if conformance.unexpected.is_empty() && has_larger_errors {
+        texts.push(format!(
+            "No verdict changed, but t, u, v or the point of some hits is farther from the exact one. Another order of \
+             operations, or a reciprocal in place of a quotient, does this. If it is meant, {ACCEPT}."
+        ));
+    }
     let failed = conformance
         .unexpected
         .iter()

@@ -62,12 +62,31 @@ impl Paged for OffsetResult {
         } else {
             ""
         };
-        let title = format!("Where new rays must start in {scene}{unit}{placed}");
+        let title = format!("{} in {scene}{unit}{placed}", self.answer());
         Page {
             command: "offset",
             title,
             blocks,
             ..Page::default()
+        }
+    }
+}
+
+impl OffsetResult {
+    /// What to do with the first kind of hit point, in few words; the question where there are several answers.
+    fn answer(&self) -> String {
+        let Some(part) = self.points.first() else {
+            return "Where new rays must start".to_owned();
+        };
+        match &part.best {
+            Some(best) if !best.is_too_high => {
+                format!(
+                    "Start new rays with {}{}",
+                    best.scheme,
+                    describe(&best.scheme)
+                )
+            }
+            _ => "No offset here is good".to_owned(),
         }
     }
 }

@@ -16,7 +16,7 @@
 //! let row = Row::named("moller-trumbore", None, "own")?;
 //! let map = map::standard::<f32>(&row, Spot::Edge, [32, 32])?;
 //! assert!(map.wrong() > 0);
-//! assert!(map::svg(&map).starts_with("<svg"));
+//! assert!(map::svg(&[map]).starts_with("<svg"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -45,6 +45,8 @@ use crate::arith::{Float, ScalarName};
 use crate::files::number;
 use crate::judge::{Finding, Obligation};
 use crate::truth::Truth;
+use hairline_core::{Error, ErrorKind};
+
 /// The results at each pixel of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
@@ -133,6 +135,24 @@ impl Ink {
     pub fn rgb(self) -> [u8; 3] {
         let part = |place| u8::from_str_radix(&self.name()[place..place + 2], 16);
         [1, 3, 5].map(|place| part(place).expect("hexadecimal digits"))
+    }
+}
+
+/// An error if one exact panel cannot stand for the maps of several kernels: they are of the same inputs, and their contracts
+/// ask different things of some of them.
+pub fn compared(maps: &[Map]) -> Result<(), Error> {
+    let pixels = |map: &Map| 0..map.pixels.len();
+    let is_other = |map: &&Map| pixels(map).any(|pixel| map.exact(pixel) != maps[0].exact(pixel));
+    match maps.iter().find(is_other) {
+        None => Ok(()),
+        Some(other) => {
+            let line = format!(
+                "{} and {} promise different things here, so no one exact picture is of both: judge them by one contract, as \
+                 --contract closed-ray",
+                maps[0].subject, other.subject
+            );
+            Err(Error::new(ErrorKind::Unsupported, line))
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! A map as PNG: the computed panel, a gap, the exact panel, each pixel a square.
+//! Maps as PNG: a computed panel for each kernel, then the exact one, with gaps between them, each pixel a square.
 
 use super::{Ink, Map};
 use hairline_core::{Error, ErrorKind};
@@ -10,14 +10,16 @@ const MOST_DOTS: usize = 1 << 26;
 /// The place of the gap's transparent colour, after the inks.
 const CLEAR: u8 = Ink::ALL.len() as u8;
 
-/// The picture, `scale` dots to a pixel's side. The gap between the panels is transparent and eight dots
-/// wide. An error if the picture would have more than 2^26 dots.
-pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
-    let [width, height] = map.size();
+/// The picture of one or several kernels on the same inputs, `scale` dots to a pixel's side. The gaps between the panels are
+/// transparent and eight dots wide. An error if the picture would have more than 2^26 dots.
+pub fn png(maps: &[Map], scale: usize) -> Result<Vec<u8>, Error> {
+    let exact = &maps[0];
+    let [width, height] = exact.size();
     let wide = width
-        .saturating_mul(2)
         .saturating_mul(scale)
-        .saturating_add(GAP);
+        .saturating_add(GAP)
+        .saturating_mul(maps.len())
+        .saturating_add(width.saturating_mul(scale));
     let high = height.saturating_mul(scale);
     if !(1..=MOST_DOTS).contains(&wide.saturating_mul(high)) {
         let line = format!(
@@ -32,9 +34,12 @@ pub fn png(map: &Map, scale: usize) -> Result<Vec<u8>, Error> {
                 .flat_map(|x| std::iter::repeat_n(ink(y * width + x) as u8, scale))
                 .collect()
         };
-        let mut line = side(&|pixel| map.computed(pixel));
-        line.extend([CLEAR; GAP]);
-        line.extend(side(&|pixel| map.exact(pixel)));
+        let mut line = Vec::with_capacity(wide);
+        for map in maps {
+            line.extend(side(&|pixel| map.computed(pixel)));
+            line.extend([CLEAR; GAP]);
+        }
+        line.extend(side(&|pixel| exact.exact(pixel)));
         for _ in 0..scale {
             dots.extend_from_slice(&line);
         }

@@ -1,4 +1,4 @@
-//! A map as SVG: the computed panel beside the exact one, with ticks, a legend and counts.
+//! Maps as SVG: a computed panel for each kernel, then the exact one, with ticks, a legend and counts.
 //!
 //! The drawing has no ids and no styles, so that many of them go into one page, and its text has the
 //! page's colour. [`svg_document`] is the same as a file of its own, in light and dark.
@@ -12,20 +12,20 @@ const PANEL: f64 = 268.0;
 const LEFT: f64 = 68.0;
 const GAP: f64 = 40.0;
 const RIGHT: f64 = 16.0;
-const WIDTH: f64 = LEFT + PANEL + GAP + PANEL + RIGHT;
 /// The height of a line of text.
 const LINE: f64 = 18.0;
 /// The width of a letter, on average: wide enough for most.
 const LETTER: f64 = 7.0;
 
-/// The drawing, to be put into a page.
-pub fn svg(map: &Map) -> String {
-    SvgDrawing::new(map).finish("")
+/// The drawing of one or several kernels on the same inputs, to be put into a page. The exact panel is that of the first:
+/// [`compared`](super::compared) says whether it is that of all.
+pub fn svg(maps: &[Map]) -> String {
+    SvgDrawing::new(maps).finish("")
 }
 
 /// The drawing as a file of its own, dark where the reader's screen is.
-pub fn svg_document(map: &Map) -> String {
-    SvgDrawing::new(map).finish(DOCUMENT)
+pub fn svg_document(maps: &[Map]) -> String {
+    SvgDrawing::new(maps).finish(DOCUMENT)
 }
 
 /// The style and the background of drawings in files of their own.
@@ -55,30 +55,41 @@ pub(super) fn drawing_of(
 }
 
 struct SvgDrawing<'a> {
-    map: &'a Map,
+    /// The kernels' maps: at least one.
+    maps: &'a [Map],
     body: String,
     /// Where the next thing goes.
     y: f64,
 }
 
 impl<'a> SvgDrawing<'a> {
-    fn new(map: &'a Map) -> SvgDrawing<'a> {
+    fn new(maps: &'a [Map]) -> SvgDrawing<'a> {
         let mut drawing = SvgDrawing {
-            map,
+            maps,
             body: String::new(),
             y: 0.0,
         };
-        drawing.lines(&title(map), BOLD);
-        drawing.lines(&format!("what is right: {}", map.measure), SMALL);
+        drawing.lines(&title(maps), BOLD);
+        drawing.lines(&format!("what is right: {}", maps[0].measure), SMALL);
         drawing.panels();
         drawing.legend();
         drawing
     }
 
+    /// The whole width: a panel a kernel, and the exact one.
+    fn width(&self) -> f64 {
+        self.left_of(self.maps.len()) + PANEL + RIGHT
+    }
+
+    /// Where a panel begins; the exact one comes after those of the kernels.
+    fn left_of(&self, panel: usize) -> f64 {
+        LEFT + (PANEL + GAP) * panel as f64
+    }
+
     fn finish(self, document: &str) -> String {
-        let words = [&*title(self.map), &description(self.map)];
+        let words = [&*title(self.maps), &description(self.maps)];
         drawing_of(
-            [WIDTH, self.y + 6.0],
+            [self.width(), self.y + 6.0],
             words,
             &(document.to_owned() + &self.body),
         )
@@ -86,35 +97,40 @@ impl<'a> SvgDrawing<'a> {
 
     /// Text over the whole width, in as many lines as it takes.
     fn lines(&mut self, words: &str, attributes: &str) {
-        for line in wrapped(words, ((WIDTH - RIGHT - 12.0) / LETTER) as usize) {
+        for line in wrapped(words, ((self.width() - RIGHT - 12.0) / LETTER) as usize) {
             self.y += LINE;
             self.body.push_str(&text(12, self.y, attributes, &line));
         }
     }
 
     fn panels(&mut self) {
-        let map = self.map;
-        let [width, height] = map.size();
+        let exact = &self.maps[0];
+        let [width, height] = exact.size();
         let cell = PANEL / width.max(height) as f64;
         let (wide, high) = (cell * width as f64, cell * height as f64);
         let top = self.y + 34.0;
-        let sides: [(&str, &dyn Fn(usize) -> Ink); 2] = [
-            ("computed", &|pixel| map.computed(pixel)),
-            ("exact", &|pixel| map.exact(pixel)),
-        ];
-        for ((name, ink), left) in sides.into_iter().zip([LEFT, LEFT + PANEL + GAP]) {
-            let cells = cells([width, height], ink);
+        let computed = self.maps.iter().map(|map| {
+            let name = match self.maps {
+                [_] => "computed",
+                _ => &map.subject,
+            };
+            (name, cells([width, height], |pixel| map.computed(pixel)))
+        });
+        let exact_cells = cells([width, height], |pixel| exact.exact(pixel));
+        let panels: Vec<(&str, String)> = computed.chain([("exact", exact_cells)]).collect();
+        for (panel, (name, cells)) in panels.into_iter().enumerate() {
+            let left = self.left_of(panel);
             self.body += &text(left, top - 10.0, BOLD, name);
             self.body += &format!(
                 "<g transform=\"translate({left} {top}) scale({cell})\" shape-rendering=\"crispEdges\">\n{cells}</g>\n<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" fill=\"none\" stroke=\"#808080\"/>\n"
             );
-            for (at, tick) in ticks(&map.axes[0]) {
+            for (at, tick) in ticks(&exact.axes[0]) {
                 let (x, y) = (left + at * wide, top + high);
                 let mark = format_args!("{x:.1} {y:.1}v5");
                 self.tick(mark, format_args!("{x:.1}"), y + 18.0, ("middle", &tick));
             }
         }
-        for (at, tick) in ticks(&map.axes[1]) {
+        for (at, tick) in ticks(&exact.axes[1]) {
             let y = top + (1.0 - at) * high;
             self.tick(
                 format_args!("{LEFT} {y:.1}h-5"),
@@ -124,7 +140,7 @@ impl<'a> SvgDrawing<'a> {
             );
         }
         self.y = top + high + 24.0;
-        for (axis, way) in map.axes.iter().zip(["to the right", "upwards"]) {
+        for (axis, way) in exact.axes.iter().zip(["to the right", "upwards"]) {
             self.lines(&format!("{way}: {}", axis_words(axis)), SMALL);
         }
     }
@@ -138,9 +154,14 @@ impl<'a> SvgDrawing<'a> {
 
     fn legend(&mut self) {
         self.y += 8.0;
-        let sides = [self.map.computed_legend(), self.map.exact_legend()];
-        let rows = sides.iter().map(Vec::len).max().unwrap_or(0);
-        for (side, left) in sides.iter().zip([12.0, LEFT + PANEL + GAP]) {
+        let computed = self.maps.iter().map(Map::computed_legend);
+        let panels: Vec<_> = computed.chain([self.maps[0].exact_legend()]).collect();
+        let rows = panels.iter().map(Vec::len).max().unwrap_or(0);
+        for (panel, side) in panels.iter().enumerate() {
+            let left = match panel {
+                0 => 12.0,
+                panel => self.left_of(panel),
+            };
             for (i, (ink, words, count)) in side.iter().enumerate() {
                 let y = self.y + LINE * (i as f64 + 1.0);
                 let count = group_digits(*count as u64);
@@ -156,13 +177,16 @@ impl<'a> SvgDrawing<'a> {
     }
 }
 
-fn title(map: &Map) -> String {
-    format!("{} in {}, one pixel one input", map.subject, map.scalar)
+fn title(maps: &[Map]) -> String {
+    let subjects: Vec<&str> = maps.iter().map(|map| &*map.subject).collect();
+    let subjects = subjects.join(" and ");
+    format!("{subjects} in {}, one pixel one input", maps[0].scalar)
 }
 
 /// A description for a reader who does not see the picture.
-fn description(map: &Map) -> String {
-    let [width, height] = map.size();
+fn description(maps: &[Map]) -> String {
+    let exact = &maps[0];
+    let [width, height] = exact.size();
     let list = |legend: Vec<(Ink, &str, usize)>| {
         let parts: Vec<String> = legend
             .iter()
@@ -170,13 +194,20 @@ fn description(map: &Map) -> String {
             .collect();
         parts.join(", ")
     };
+    let computed: Vec<String> = maps
+        .iter()
+        .map(|map| {
+            let wrong = group_digits(map.wrong() as u64);
+            let legend = list(map.computed_legend());
+            format!("{}, {wrong} wrong: {legend}.", map.subject)
+        })
+        .collect();
     format!(
-        "A map of {width} by {height} pixels, {} wrong. Left, computed: {}. Right, exact: {}. To the right: {}. Upwards: {}.",
-        group_digits(map.wrong() as u64),
-        list(map.computed_legend()),
-        list(map.exact_legend()),
-        axis_words(&map.axes[0]),
-        axis_words(&map.axes[1])
+        "A map of {width} by {height} pixels. {} Right, exact: {}. To the right: {}. Upwards: {}.",
+        computed.join(" "),
+        list(exact.exact_legend()),
+        axis_words(&exact.axes[0]),
+        axis_words(&exact.axes[1])
     )
 }
 
