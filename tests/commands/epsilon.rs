@@ -255,7 +255,7 @@ fn a_snippet_has_every_number_with_its_comparison() {
 }
 
 #[test]
-fn the_guides_pictures_are_what_the_program_draws() {
+fn the_pictures_of_readme_and_guide_are_what_the_program_draws() {
     let drawn = |words: &[&str]| String::from_utf8(hairline(Path::new("."), words).stdout).unwrap();
     let kept = |name: &str| {
         fs::read_to_string(format!("{}/docs/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
@@ -276,12 +276,17 @@ fn the_guides_pictures_are_what_the_program_draws() {
         "--at",
         "vertex",
         "--kernel",
-        "moller-trumbore",
+        "moller-trumbore,woop-watertight",
+        "--size",
+        "64",
         "-q",
         "--format",
         "svg",
     ];
-    assert!(drawn(&map) == kept("map-moller-trumbore-f32.svg"));
+    assert!(drawn(&map) == kept("vertex-f32.svg"));
+    let edge = "epsilon --kernel moller-trumbore --gate edge --scene room --scalar f32 -n 4000 -q --format svg";
+    let words: Vec<&str> = edge.split(' ').collect();
+    assert!(drawn(&words) == kept("edge-epsilon-f32.svg"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What is said of a comparison beside the classes that deviate: settings, formulas, errors of hits, proofs and a short case.
+//! The parts of a comparison beside the classes that deviate: settings, formulas, errors of hits, proofs and a short case.
 
 use crate::arith::ScalarName;
 use crate::class::FindingClass;
@@ -97,7 +97,7 @@ pub struct ComputedFormula {
     pub epsilon: Option<String>,
     /// How many hits of both have the same values, bit for bit.
     pub same: u64,
-    /// Of so many hits of both.
+    /// All hits of both.
     pub hits: u64,
 }
 

@@ -31,7 +31,7 @@ impl NetFinding<'_> {
     }
 }
 
-/// What is added up for a row, a scalar and a finding.
+/// The sums of a row, a scalar and a finding.
 #[derive(Default)]
 struct NetSums<'a> {
     known: u64,

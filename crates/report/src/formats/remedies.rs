@@ -1,4 +1,4 @@
-//! What to do after a check that fails, for each reason that is seen: mend, change a compiler's flag, or take it as known.
+//! The advice after a check that fails, for each reason that is seen: mend, change a compiler's flag, or take it as known.
 
 use super::relations;
 use crate::page::Item;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// The words of the command that takes what was found as known.
 const ACCEPT: &str = "the same command with --bless --accept-worse takes it as known";
 
-/// What to do, a sentence or two for each reason; nothing where nothing got worse.
+/// The advice, a sentence or two for each reason; nothing where nothing got worse.
 pub(super) fn remedies(record: &Record, conformance: &Conformance) -> Vec<Item> {
     let is_worse = conformance.verdict == ComparisonVerdict::Disagreements;
     if !is_worse || conformance.expectations.is_none() {
@@ -60,7 +60,7 @@ pub(super) fn remedies(record: &Record, conformance: &Conformance) -> Vec<Item> 
     texts.into_iter().map(Item::of).collect()
 }
 
-/// What to do about a formula that is computed otherwise than it says.
+/// The advice about a formula that is computed otherwise than it says.
 fn computed(computed: &ComputedFormula) -> String {
     let ComputedFormula { kernel, set, .. } = computed;
     let advice = match (&computed.epsilon, computed.is_fused) {
@@ -73,7 +73,7 @@ fn computed(computed: &ComputedFormula) -> String {
     format!("{kernel} ({set}): {advice}")
 }
 
-/// What to do about a row that runs with other settings.
+/// The advice about a row that runs with other settings.
 fn set_otherwise(change: &RowChange) -> String {
     let RowChange {
         kernel, set, what, ..
@@ -81,7 +81,7 @@ fn set_otherwise(change: &RowChange) -> String {
     format!("{kernel} ({set}): put its {what} back, or, if it is meant, {ACCEPT}.")
 }
 
-/// What is more and fewer in a row that no reason is known for.
+/// The changes of a row, of which no reason is known.
 #[derive(Default)]
 struct RowTrade {
     more: u64,
@@ -89,7 +89,7 @@ struct RowTrade {
     classes: u64,
 }
 
-/// What to do about rows of which no reason is known: a trade, other cases, or a kernel that got worse.
+/// The advice about rows of which no reason is known: a trade, other cases, or a kernel that got worse.
 fn trades<'a>(
     conformance: &'a Conformance,
     unexplained: impl Iterator<Item = &'a Deviation>,

@@ -94,7 +94,7 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
     blocks
 }
 
-/// What is known of the reason, and what could not be compared, a sentence each.
+/// The reason as far as it is known, and what could not be compared, a sentence each.
 fn reasons(record: &Record, conformance: &Conformance) -> Vec<String> {
     let mut texts = Vec::new();
     if !conformance.unexpected.is_empty() {
@@ -132,7 +132,7 @@ fn reasons(record: &Record, conformance: &Conformance) -> Vec<String> {
     texts
 }
 
-/// What was compared with what.
+/// The run, and the file that it was compared with.
 fn compared(record: &Record, conformance: &Conformance) -> String {
     let how = match (conformance.method, &conformance.expectations) {
         (_, None) => "nothing is expected: there is no file of expectations".to_owned(),

@@ -73,7 +73,7 @@ impl Paged for OffsetResult {
 }
 
 impl OffsetResult {
-    /// What to do with the first kind of hit point, in few words; the question where there are several answers.
+    /// The offset to use for the first kind of hit point, in few words; the question where there are several answers.
     fn answer(&self) -> String {
         let Some(part) = self.points.first() else {
             return "Where new rays must start".to_owned();
