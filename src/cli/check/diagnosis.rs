@@ -39,10 +39,11 @@ pub(super) fn short_case(plan: &Plan, conformance: &Conformance) -> Option<Short
         .iter()
         .filter(|found| found.bits.is_some())
         .collect();
-    // A crossing within the interval reads easiest, and what was never wrong tells most.
+    // A wrong verdict on a crossing within the interval reads easiest, and what was never wrong tells most.
     let is_plain = |class: Class| class.crosses() && !class.is_off_the_interval();
     found.sort_by_key(|found| {
         (
+            !found.finding.is_wrong_verdict(),
             !found.class.truth().is_some_and(is_plain),
             found.expected_count != Some(0),
         )

@@ -11,6 +11,7 @@ use super::{
 use crate::chart;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use hairline_record::group_digits;
 use hmac_sha256::Hash;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::collections::{BTreeMap, BTreeSet};
@@ -178,10 +179,7 @@ impl HtmlWriter<'_> {
                     self.left += for_others;
                     u64::from(!fits)
                 }
-                Block::Items(Items { items, .. }) => {
-                    let items = items.iter().map(|one| item(one).into_string());
-                    self.add(&mut text, ["<ul class=\"cards\">", "</ul>"], items)
-                }
+                Block::Items(items) => self.items(&mut text, items),
                 Block::Table(table) => {
                     let start = format!("{TABLE}{}<tbody>", heads(table).into_string());
                     let legend = Table::legend(table.heads.iter());
@@ -202,6 +200,25 @@ impl HtmlWriter<'_> {
             text += &note(left_out);
         }
         text
+    }
+
+    /// Adds items: those of a screen, and the others folded.
+    fn items(&mut self, text: &mut String, Items { items, most }: &Items) -> u64 {
+        let (shown, folded) = items.split_at(items.len().min(*most));
+        let start = "<ul class=\"cards\">";
+        let end = "</ul>";
+        let written = |items: &[Item]| -> Vec<String> {
+            items.iter().map(|one| item(one).into_string()).collect()
+        };
+        let mut left_out = self.add(text, [start, end], written(shown).into_iter());
+        if !folded.is_empty() {
+            let more = group_digits(folded.len() as u64);
+            let start =
+                format!("<details class=\"more\"><summary>and {more} more</summary>{start}");
+            let end = format!("{end}</details>");
+            left_out += self.add(text, [&start, &end], written(folded).into_iter());
+        }
+        left_out
     }
 
     fn add_one(&mut self, text: &mut String, markup: Markup) -> u64 {
