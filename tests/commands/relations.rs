@@ -199,6 +199,38 @@ fn an_interval_that_is_not_read_is_named_in_families_and_scenes() {
 }
 
 #[test]
+fn a_miss_that_is_told_as_a_t_is_named() {
+    let folder = scratch("relations-miss");
+    for (mistake, value) in [
+        ("MINUS_ONE", "t = -1"),
+        ("NOT_A_NUMBER", "t = NaN"),
+        ("INFINITE", "an infinite t"),
+        ("HUGE_T", "a huge t"),
+    ] {
+        let Some(library) = related(mistake) else {
+            return;
+        };
+        let sentence = format!("it reports a miss as a hit with {value} on all ");
+        for plan in [
+            &["--family", "outside"][..],
+            &["--family", "outside,interior,edge-near"],
+            &["--scene", "room"],
+        ] {
+            let run = [
+                &["audit", "-q", "-n", "500", "--kernel-lib", &library],
+                plan,
+            ]
+            .concat();
+            let screen = flat(&ends(&folder, &run, 0).0);
+            let start = format!("related (own): {sentence}");
+            assert!(screen.starts_with(&start), "{mistake} {plan:?}: {screen}");
+        }
+        let plan = ["--family", "outside"];
+        assert_check_says(&folder, &library, &plan, &sentence);
+    }
+}
+
+#[test]
 fn the_count_of_a_relation_is_that_of_the_record_also_from_shards() {
     let folder = scratch("relations-record");
     corpus(&folder.join("intervals.jsonl"));

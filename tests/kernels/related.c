@@ -6,6 +6,7 @@
 enum mistake {
     NONE, TWICE, HALF, OPPOSITE, LENGTH, SQUARED_LENGTH, OVER_LENGTH, FROM_START, SHARE, CLAMPED, EXCHANGED, W_FOR_U, W_FOR_V,
     OF_AB, OF_CA, IN_F32, PREVIOUS, ABSOLUTE, NO_T_MIN, ZERO_T_MIN, CLAMPED_T_MIN, NO_T_MAX,
+    MINUS_ONE, NOT_A_NUMBER, INFINITE, HUGE_T,
     /* No simple relation: */
     AFFINE, SOMETIMES_TWICE, OFF_BY_ULPS,
 };
@@ -50,6 +51,19 @@ static int is_on_interval(const hairline_case_f64 *c, double t) {
     }
 }
 
+/* A miss as many functions return it, where hairline asks for hit or miss. */
+static void told_as_t(hairline_verdict_f64 *verdict) {
+    switch (MISTAKE) {
+    case MINUS_ONE: verdict->t = -1; break;
+    case NOT_A_NUMBER: verdict->t = NAN; break;
+    case INFINITE: verdict->t = INFINITY; break;
+    case HUGE_T: verdict->t = 3e38; break;
+    default: return;
+    }
+    verdict->hit = 1;
+    verdict->u = verdict->v = 0;
+}
+
 static void one(const hairline_case_f64 *c, size_t place, hairline_verdict_f64 *verdict) {
     double edge1[3], edge2[3], p[3], q[3], s[3], d[3];
     verdict->hit = verdict->facing = 0;
@@ -63,7 +77,10 @@ static void one(const hairline_case_f64 *c, size_t place, hairline_verdict_f64 *
     double u = rounded(dot(s, p) / det);
     cross(s, edge1, q);
     double v = rounded(dot(d, q) / det), t = rounded(dot(edge2, q) / det);
-    if (!(u >= 0 && v >= 0 && u + v <= 1) || !is_on_interval(c, t)) return;
+    if (!(u >= 0 && v >= 0 && u + v <= 1) || !is_on_interval(c, t)) {
+        told_as_t(verdict);
+        return;
+    }
     double square = dot(c->direction, c->direction), w = 1 - u - v;
     verdict->hit = 1;
     verdict->t = t;

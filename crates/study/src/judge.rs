@@ -23,7 +23,10 @@ pub use group::{
     GroupTruth, group_obligation, group_truth, owes_groups_alike, polygon_obligation, polygon_truth,
 };
 pub use limits::ValueLimits;
-pub use relation::{Part, RelatedValues, Relation, answers_as, is_plain, other_demands};
+pub use relation::{
+    MISSES, Part, RelatedValues, Relation, answers_as, is_hit_far_beside, is_plain, other_demands,
+    stands_for_miss,
+};
 pub use values::{ALLOWANCE, ValueErrors, exact_times, exact_values_are_near, rounds_to_infinity};
 
 use crate::arith::{Exact, Float, Real, Triple};

@@ -8,8 +8,8 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    Finding, Obligation, Part, RelatedValues, Relation, answers_as, asked, is_plain, judge,
-    other_demands,
+    Finding, MISSES, Obligation, Part, RelatedValues, Relation, answers_as, asked,
+    is_hit_far_beside, is_plain, judge, other_demands, stands_for_miss,
 };
 use crate::kernel::{Gives, Scalar, Verdict};
 use crate::oracle;
@@ -124,6 +124,12 @@ impl Relations {
             let holds = answers_as(*relation, *demand, truth, gives, verdict);
             self.add(*relation, holds);
         }
+        if owed == Obligation::MustMiss && is_hit_far_beside(case, truth, gives, verdict) {
+            let shown = stands_for_miss(verdict);
+            for relation in MISSES {
+                self.add(relation, shown == Some(relation));
+            }
+        }
         let is_wrong = verdict.hit != (owed == Obligation::MustHit);
         if demands.is_empty() && is_wrong && is_plain(case) {
             self.unexplained += 1;
@@ -159,6 +165,10 @@ impl Relations {
         // What takes |t| for t also reports it.
         if known.iter().any(|it| it.relation == Relation::AbsoluteT) {
             known.retain(|it| it.relation != Relation::OppositeT);
+        }
+        // A t that stands for a miss is no wrong t.
+        if known.iter().any(|it| it.relation.part() == Part::Miss) {
+            known.retain(|it| it.relation.part() == Part::Miss);
         }
         known
     }

@@ -1,6 +1,10 @@
 //! Simple relations between the answers of a kernel and the exact values, by which a mistake is known: t is twice the exact
 //! t, u and v are exchanged, t_min is ignored.
 
+mod miss;
+
+pub use miss::{MISSES, is_hit_far_beside, stands_for_miss};
+
 use super::distance::Distances;
 use super::values::{ALLOWANCE, Allowed, given_values, length, roundoff};
 use super::{Obligation, obligation};
@@ -60,6 +64,14 @@ named! {
         ClampedTMin = "t-min-clamped",
         /// it ignores t_max.
         IgnoresTMax = "t-max-ignored",
+        /// it reports a miss as a hit with t = -1.
+        MinusOneForMiss = "minus-one-for-miss",
+        /// it reports a miss as a hit with t = NaN.
+        NanForMiss = "nan-for-miss",
+        /// it reports a miss as a hit with an infinite t.
+        InfiniteForMiss = "infinite-for-miss",
+        /// it reports a miss as a hit with a huge t.
+        HugeForMiss = "huge-for-miss",
     }
 }
 
@@ -76,6 +88,8 @@ pub enum Part {
     Start,
     /// Hit or miss, by the end of the interval.
     End,
+    /// Whether it says hit or miss at all.
+    Miss,
 }
 
 impl Part {
@@ -86,6 +100,7 @@ impl Part {
             Part::Weights => "hits with a wrong u or v",
             Part::Values => "hits with wrong values",
             Part::Start | Part::End => "cases where that changes the answer",
+            Part::Miss => "hits far beside a triangle",
         }
     }
 }
@@ -114,6 +129,10 @@ impl Relation {
             | Relation::ZeroTMin
             | Relation::ClampedTMin => Part::Start,
             Relation::IgnoresTMax => Part::End,
+            Relation::MinusOneForMiss
+            | Relation::NanForMiss
+            | Relation::InfiniteForMiss
+            | Relation::HugeForMiss => Part::Miss,
         }
     }
 }
