@@ -31,8 +31,8 @@ export default function kernel({ origin, direction }, { a, b, c }, epsilon) {
   return t >= 0 ? { t, u, v } : null;
 }
 `,
-  "as three.js does it": `// The method of Ray.intersectTriangle in three.js (after Eberly, Geometric Tools),
-// without culling: both sides of the line are scaled by |d·n|, and divided once.
+  "after Eberly": `// Eberly's test (Geometric Tools), which older releases of three.js had: both sides of the line
+// are scaled by |d·n|, and divided once. Without culling.
 
 export const epsilons = {};
 export const contract = "closed-ray,boundary=free,coplanar=free,degenerate=free,invalid=free";

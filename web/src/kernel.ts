@@ -60,18 +60,30 @@ export function runner(kernel: Kernel, names: string[], threw: (error: unknown) 
   };
 }
 
-/** What a kernel says of plain rays: which values its hits have, and what it promises less than a contract asks. */
+/** What a kernel says of plain rays: which values its hits have, and what it promises less than a contract asks. An error
+ * says which of its answers no kernel can mean. */
 export function given(kernel: Kernel, epsilons: Epsilons): { gives: [boolean, boolean]; less: Less[] } {
-  const plain = (from: number, along: number) =>
-    kernel({ origin: [1, 1, from], direction: [0, 0, along], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
+  const plain = (from: number, along: number, aside = 1) =>
+    kernel({ origin: [aside, aside, from], direction: [0, 0, along], tMin: 0, tMax: Infinity }, { a: [0, 0, 0], b: [4, 0, 0], c: [0, 4, 0] }, epsilons);
   const [front, back, ...behind] = [plain(4, -4), plain(-4, 4), plain(4, 4), plain(-4, -4)];
+  if (isPromise(front)) throw new Error("the kernel returns a Promise: it must answer at once, without async and await");
   if (front === undefined && back === undefined) {
     throw new Error("the kernel returns undefined for a ray through the middle of a triangle: is a `return` missing, or does it read origin.x of the array origin? A miss is null");
+  }
+  if ([front, back].filter(isHit).some((hit) => Number.isNaN(typeof hit === "object" ? hit.t : hit))) {
+    throw new Error("the kernel returns t = NaN for a ray through the middle of a triangle: does it read origin.x of the array origin? Vectors are [x, y, z]");
+  }
+  const beside = [plain(4, -4, 40), plain(-4, 4, 40), plain(4, -4, -40), plain(-4, 4, -40)].filter(isHit);
+  if (beside.length === 4) {
+    const told = beside.map((hit) => (typeof hit === "object" ? hit.t : hit));
+    throw new Error(`the kernel reports a hit (${told[0]}) for rays that pass far beside a triangle: if that stands for a miss, return null instead`);
   }
   const { t, u, v } = valuesOf([front, back].find(isHit) ?? true);
   const less: Less[] = [...(isHit(front) && !isHit(back) ? ["sides=front" as const] : []), ...(behind.some(isHit) ? ["extent=line" as const] : [])];
   return { gives: [!Number.isNaN(t), !Number.isNaN(u) && !Number.isNaN(v)], less };
 }
+
+const isPromise = (hit: unknown): boolean => typeof (hit as { then?: unknown } | null)?.then === "function";
 
 /** The values of a hit; NaN for those that it has not. */
 function valuesOf(hit: Exclude<Hit, false | null | undefined>) {

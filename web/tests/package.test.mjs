@@ -193,6 +193,18 @@ test("what a kernel promises less is told with the contract that says so", async
   assert.equal(hint(describe({ default: (ray, triangle) => ((h) => (h && h.t >= 0 ? h : null))(mollerTrumbore(ray, triangle, { parallel: 0 })) })), "");
 });
 
+test("answers that no kernel can mean are told before the audit", () => {
+  const inside = (ray, triangle) => mollerTrumbore(ray, triangle, { parallel: 0 });
+  const plain = { count: 10 };
+  const told = (kernel, message) => assert.throws(() => hairline.audit(kernel, plain), { message });
+  for (const miss of [-1, Infinity, NaN]) {
+    told((ray, triangle) => inside(ray, triangle)?.t ?? miss, new RegExp(`reports a hit \\(${miss}\\) for rays that pass far beside .* return null instead`));
+  }
+  told(async (ray, triangle) => inside(ray, triangle), /returns a Promise: it must answer at once/);
+  told(({ origin }, triangle) => (triangle.a ? { t: origin.x } : null), /./);
+  told(({ origin }) => ({ t: origin.x * 2 }), /returns t = NaN for a ray through the middle .* Vectors are \[x, y, z\]/);
+});
+
 test("an exception is a finding, and does not end the audit", () => {
   const { record } = hairline.audit(({ direction }) => {
     if (direction[0] > 0.5) throw new Error("no");

@@ -39,15 +39,24 @@ class Answers:
     def __init__(self, kernel: Callable[..., Any], vectorized: bool, dtype: Any) -> None:
         self.kernel, self.vectorized, self.dtype = kernel, vectorized, np.dtype(dtype)
         # What does it return? Rays through the middle of a triangle, from both sides, and such that leave it behind.
-        corners = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], self.dtype)
-        from_z, along = (np.array(z, self.dtype)[:, None] * [[0, 0, 1]] for z in ([1, -1, 1, -1], [-1, 1, 1, -1]))
-        rays = [(from_z + [[1, 1, 0]]).astype(self.dtype), along.astype(self.dtype)]
-        ends = np.zeros(4, self.dtype), np.full(4, np.inf, self.dtype)
-        named = self._named((*rays, *(np.array([corner] * 4) for corner in corners), *ends))
+        named = self._plain(1)
         self.gives = ("t" in named, "u" in named and "v" in named)
         front, back, *behind = named["hit"]
+        beside = self._plain(40)
+        if beside["hit"].all():
+            told = f" with t = {beside['t'][0]}" if "t" in beside else ""
+            miss = "t = nan" if vectorized else "None"
+            raise ValueError(f"the kernel reports hits{told} for rays that pass far beside a triangle: if that stands for a miss, return {miss} instead")
         # What it promises less than a closed ray, in the words of a contract.
         self.less = (["sides=front"] if front and not back else []) + (["extent=line"] if any(behind) else [])
+
+    def _plain(self, aside: float) -> "dict[str, Any]":
+        """What it says of four rays along z, so far aside in x and y, at a triangle with legs of 4."""
+        corners = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], self.dtype)
+        from_z, along = (np.array(z, self.dtype)[:, None] * [[0, 0, 1]] for z in ([1, -1, 1, -1], [-1, 1, 1, -1]))
+        rays = [(from_z + [[aside, aside, 0]]).astype(self.dtype), along.astype(self.dtype)]
+        ends = np.zeros(4, self.dtype), np.full(4, np.inf, self.dtype)
+        return self._named((*rays, *(np.array([corner] * 4) for corner in corners), *ends))
 
     def __call__(self, *arrays: Any) -> "tuple[Any, Any, Any, Any]":
         named = self._named(arrays)

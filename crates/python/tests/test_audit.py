@@ -89,6 +89,21 @@ def exact(origin, direction, a, b, c, t_min, t_max):
     return hairline.truth(origin, direction, a, b, c)["hit"]
 
 
+@pytest.mark.parametrize("miss", [-1.0, float("inf")])
+def test_a_number_that_stands_for_a_miss_is_told_before_the_audit(miss):
+    def one(origin, direction, a, b, c, t_min, t_max):
+        return 1.0 if exact(origin, direction, a, b, c, t_min, t_max) else miss
+
+    with pytest.raises(ValueError, match=rf"hits with t = {miss} for rays that pass far beside .*, return None instead"):
+        hairline.audit(one, count=10)
+
+    def many(origin, *rest):
+        return np.full(len(origin), miss)
+
+    with pytest.raises(ValueError, match=r"return t = nan instead"):
+        hairline.audit(many, vectorized=True, count=10)
+
+
 def test_a_right_kernel_conforms_and_a_wrong_one_says_where():
     hairline.assert_conforms(exact, contract="extent=ray,sides=both,boundary=closed,coplanar=hit,degenerate=hit", count=200)
     with pytest.raises(AssertionError) as raised:
