@@ -1,0 +1,210 @@
+//! A mesh with its tree, and the faces that a ray meets first.
+
+use crate::aabb::{Aabb, exponent_of};
+use crate::bounds::Bounds;
+use crate::build::build;
+use crate::filter::are_moderate;
+use crate::found::{End, Found, Order};
+use crate::grid::Grid;
+use crate::mesh::{MeshError, Triangle, is_finite, triangles, widened};
+use crate::query::{Numbers, Query};
+use crate::ray::{InvalidRay, Ray};
+use crate::slab::TreeRay;
+use crate::tree::{Node, walk};
+use hairline_core::Float;
+use std::cmp::Ordering;
+
+/// Faces that rays are held against.
+///
+/// A face is a closed triangle: its edges and vertices belong to it. Without area it is a segment or a point, and is met
+/// like any other. A face that repeats another one is met where that is. A face with a NaN or an infinity is never met;
+/// [`Scene::not_finite`] names it.
+pub struct Scene<F: Float> {
+    /// The finite triangles in the order of the tree's leaves.
+    triangles: Vec<Triangle<F>>,
+    /// The face of each of them.
+    faces: Vec<u32>,
+    not_finite: Vec<u32>,
+    nodes: Vec<Node>,
+    numbers: Numbers,
+    /// Coordinates times 2 to this power are below 2.
+    exponent: i32,
+}
+
+/// The least t at which a ray meets a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nearest {
+    /// Bounds of t.
+    pub t: Bounds,
+    /// All faces that the ray meets there, by number. Any one of them is right.
+    pub faces: Vec<u32>,
+}
+
+/// Points of a ray that it shares with the same faces: one point, or a segment that lies in them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hit {
+    /// Bounds of the first t.
+    pub from: Bounds,
+    /// Bounds of the last t; that of a point is the first one.
+    pub to: Bounds,
+    /// True if the ray runs inside the faces from the first t to a later one.
+    pub is_segment: bool,
+    /// The faces, by number.
+    pub faces: Vec<u32>,
+}
+
+impl<F: Float> Scene<F> {
+    /// From vertices and the three of each face. An error if a face names a vertex that does not exist, or if there are
+    /// too many faces.
+    pub fn new(vertices: &[[F; 3]], faces: &[[u32; 3]]) -> Result<Scene<F>, MeshError> {
+        Ok(Scene::of(&triangles(vertices, faces)?))
+    }
+
+    fn of(triangles: &[Triangle<F>]) -> Scene<F> {
+        let mut finite = Vec::with_capacity(triangles.len());
+        let mut not_finite = Vec::new();
+        let mut grid = Grid::NONE;
+        let mut moderate = true;
+        let mut largest = 0.0f64;
+        for (face, triangle) in triangles.iter().enumerate() {
+            let wide = widened(triangle);
+            if !is_finite(&wide) {
+                not_finite.push(face as u32);
+                continue;
+            }
+            finite.push(face as u32);
+            let numbers = wide.as_flattened();
+            grid = numbers.iter().copied().fold(grid, Grid::with);
+            moderate &= are_moderate(numbers);
+            largest = numbers.iter().fold(largest, |most, x| most.max(x.abs()));
+        }
+        let exponent = -exponent_of(largest).unwrap_or(0);
+        let around = |face: &u32| Aabb::around(&widened(&triangles[*face as usize]), exponent);
+        let boxes: Vec<Aabb> = finite.iter().map(around).collect();
+        let (nodes, order) = build(&boxes);
+        let faces: Vec<u32> = order.into_iter().map(|i| finite[i as usize]).collect();
+        let ordered = faces.iter().map(|face| triangles[*face as usize]);
+        Scene {
+            triangles: ordered.collect(),
+            faces,
+            not_finite,
+            nodes,
+            numbers: Numbers {
+                grid,
+                are_moderate: moderate,
+            },
+            exponent,
+        }
+    }
+
+    /// The faces that no ray meets because a coordinate is NaN or infinite, by number.
+    pub fn not_finite(&self) -> &[u32] {
+        &self.not_finite
+    }
+
+    /// The faces that a ray meets first on its interval. None if it meets no face; an error if the ray means nothing.
+    pub fn nearest(&self, ray: &Ray<F>) -> Result<Option<Nearest>, InvalidRay> {
+        let ray = ray.checked()?;
+        let query = Query::new(ray, self.numbers);
+        let mut found: Vec<Found> = Vec::new();
+        let mut least = f64::INFINITY;
+        self.visit(&ray, |place, triangle| {
+            let new = query.meet(place, triangle, least)?;
+            let is_nearer = new.from.upper < least;
+            if is_nearer {
+                least = new.from.upper;
+                found.retain(|old| old.from.lower <= least);
+            }
+            found.push(new);
+            is_nearer.then_some(least)
+        });
+        Ok(self.first_of(&query, &found))
+    }
+
+    /// The least of faces, exactly.
+    fn first_of(&self, query: &Query, found: &[Found]) -> Option<Nearest> {
+        let order = self.order(query);
+        let mut first = found.first()?;
+        let mut faces = vec![self.faces[first.place as usize]];
+        for other in &found[1..] {
+            let face = self.faces[other.place as usize];
+            match order.compare(other, End::From, first, End::From) {
+                Ordering::Less => {
+                    first = other;
+                    faces.clear();
+                    faces.push(face);
+                }
+                Ordering::Equal => faces.push(face),
+                Ordering::Greater => {}
+            }
+        }
+        faces.sort();
+        Some(Nearest {
+            t: first.from,
+            faces,
+        })
+    }
+
+    /// All hits of a ray on its interval, ordered by their first t and then by their last one; exactly, whatever the bounds
+    /// are. Faces with equal hits share one. An error if the ray means nothing.
+    pub fn hits(&self, ray: &Ray<F>) -> Result<Vec<Hit>, InvalidRay> {
+        let ray = ray.checked()?;
+        let query = Query::new(ray, self.numbers);
+        let order = self.order(&query);
+        let mut found = self.all(&ray, &query);
+        found.sort_by(|a, b| order.by_ends(a, b));
+        let equal = found.chunk_by(|a, b| order.by_ends(a, b) == Ordering::Equal);
+        Ok(equal.map(|same| self.hit(same)).collect())
+    }
+
+    /// Every face that a ray meets, in no order.
+    pub(crate) fn all(&self, ray: &Ray<f64>, query: &Query) -> Vec<Found> {
+        let mut found = Vec::new();
+        self.visit(ray, |place, triangle| {
+            found.extend(query.meet(place, triangle, f64::INFINITY));
+            None
+        });
+        found
+    }
+
+    /// The hit of faces with one range of t.
+    fn hit(&self, same: &[Found]) -> Hit {
+        let mut faces: Vec<u32> = same.iter().map(|found| self.face_at(found.place)).collect();
+        faces.sort();
+        Hit {
+            from: same[0].from,
+            to: same[0].to,
+            is_segment: same[0].is_segment(),
+            faces,
+        }
+    }
+
+    /// Calls `visit` for each face whose box the ray meets, with its place in the tree. If `visit` gives a t, hits beyond
+    /// that t no longer count.
+    #[inline(always)]
+    fn visit(&self, ray: &Ray<f64>, mut visit: impl FnMut(u32, &Triangle<f64>) -> Option<f64>) {
+        let mut ray = TreeRay::new(ray, self.exponent);
+        walk(&self.nodes, &mut ray, |place| {
+            visit(place, &self.triangle_at(place))
+        });
+    }
+
+    #[inline(always)]
+    pub(crate) fn triangle_at(&self, place: u32) -> Triangle<f64> {
+        widened(&self.triangles[place as usize])
+    }
+
+    pub(crate) fn face_at(&self, place: u32) -> u32 {
+        self.faces[place as usize]
+    }
+
+    pub(crate) fn order<'a>(
+        &'a self,
+        query: &'a Query,
+    ) -> Order<'a, impl Fn(u32) -> Triangle<f64> + 'a> {
+        Order {
+            exact: &query.exact,
+            triangle: |place| self.triangle_at(place),
+        }
+    }
+}
