@@ -147,6 +147,21 @@ impl<T: Fn(u32) -> Triangle<f64>> Order<'_, T> {
         })
     }
 
+    /// The order of an end and a float, exactly; the float may be infinite.
+    pub fn compare_float(&self, found: &Found, end: End, t: f64) -> Ordering {
+        let bounds = found.bounds(end);
+        if bounds.upper < t {
+            return Ordering::Less;
+        }
+        if t < bounds.lower {
+            return Ordering::Greater;
+        }
+        if bounds.is_exact() {
+            return Ordering::Equal;
+        }
+        self.parameter(found, end).compare_float(t)
+    }
+
     fn name(&self, found: &Found) -> Option<Name> {
         found.name(&(self.triangle)(found.place))
     }

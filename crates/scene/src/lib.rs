@@ -22,8 +22,11 @@ mod bounds;
 mod grid;
 mod mesh;
 mod ray;
+mod winding;
 
+mod closed;
 mod define;
+mod moved;
 
 mod aabb;
 mod exact;
@@ -39,8 +42,13 @@ mod build;
 
 mod scene;
 
+mod passage;
+
 pub use bounds::Bounds;
+pub use closed::Closed;
 pub use define::{DefinedHit, define, nearest_of};
 pub use mesh::{MeshError, Triangle, triangles};
+pub use passage::{Location, Passage};
 pub use ray::{InvalidRay, Ray};
 pub use scene::{Hit, Nearest, Scene};
+pub use winding::{OpenEdge, Winding};

@@ -3,6 +3,7 @@
 use crate::aabb::{Aabb, exponent_of};
 use crate::bounds::Bounds;
 use crate::build::build;
+use crate::closed::{Closed, closed};
 use crate::filter::are_moderate;
 use crate::found::{End, Found, Order};
 use crate::grid::Grid;
@@ -13,6 +14,7 @@ use crate::slab::TreeRay;
 use crate::tree::{Node, walk};
 use hairline_core::Float;
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 
 /// Faces that rays are held against.
 ///
@@ -29,6 +31,7 @@ pub struct Scene<F: Float> {
     numbers: Numbers,
     /// Coordinates times 2 to this power are below 2.
     exponent: i32,
+    closed: OnceLock<Closed>,
 }
 
 /// The least t at which a ray meets a mesh.
@@ -94,7 +97,14 @@ impl<F: Float> Scene<F> {
                 are_moderate: moderate,
             },
             exponent,
+            closed: OnceLock::new(),
         }
+    }
+
+    /// How far the surface is closed: found out once, when it is first needed.
+    pub fn closed(&self) -> &Closed {
+        let triangle = |place: usize| widened(&self.triangles[place]);
+        self.closed.get_or_init(|| closed(triangle, &self.faces))
     }
 
     /// The faces that no ray meets because a coordinate is NaN or infinite, by number.
@@ -105,7 +115,7 @@ impl<F: Float> Scene<F> {
     /// The faces that a ray meets first on its interval. None if it meets no face; an error if the ray means nothing.
     pub fn nearest(&self, ray: &Ray<F>) -> Result<Option<Nearest>, InvalidRay> {
         let ray = ray.checked()?;
-        let query = Query::new(ray, self.numbers);
+        let query = self.query(ray);
         let mut found: Vec<Found> = Vec::new();
         let mut least = f64::INFINITY;
         self.visit(&ray, |place, triangle| {
@@ -149,12 +159,16 @@ impl<F: Float> Scene<F> {
     /// are. Faces with equal hits share one. An error if the ray means nothing.
     pub fn hits(&self, ray: &Ray<F>) -> Result<Vec<Hit>, InvalidRay> {
         let ray = ray.checked()?;
-        let query = Query::new(ray, self.numbers);
+        let query = self.query(ray);
         let order = self.order(&query);
         let mut found = self.all(&ray, &query);
         found.sort_by(|a, b| order.by_ends(a, b));
         let equal = found.chunk_by(|a, b| order.by_ends(a, b) == Ordering::Equal);
         Ok(equal.map(|same| self.hit(same)).collect())
+    }
+
+    pub(crate) fn query(&self, ray: Ray<f64>) -> Query {
+        Query::new(ray, self.numbers)
     }
 
     /// Every face that a ray meets, in no order.
