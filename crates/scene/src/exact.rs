@@ -6,6 +6,7 @@ use crate::mesh::Triangle;
 use crate::ray::Ray;
 use hairline_core::oracle::integer::{Integer, IntegerVector, align, cross, dot, minus};
 use num_bigint::BigInt;
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 /// With 38 bits a coordinate T is below 2^120 and D below 2^119; the fractions of contacts are below 2^118 over 2^117.
@@ -14,25 +15,33 @@ const MOST_BITS: i64 = 38;
 /// The exact t of a ray and some faces, in 128 bits if their grid allows.
 pub struct Exact {
     ray: Ray<f64>,
+    scene: Grid,
     /// The grids of all positions and of the direction, if 128 bits hold what is made of them.
-    small: Option<[Grid; 2]>,
+    small: OnceCell<Option<[Grid; 2]>>,
 }
 
 impl Exact {
     /// A ray against faces whose coordinates are on a grid.
     pub fn new(ray: Ray<f64>, scene: Grid) -> Exact {
-        let positions = ray.origin.into_iter().fold(scene, Grid::with);
-        let direction = ray.direction.into_iter().fold(Grid::NONE, Grid::with);
-        let is_small = positions.has_bits(MOST_BITS) && direction.has_bits(MOST_BITS);
         Exact {
             ray,
-            small: is_small.then_some([positions, direction]),
+            scene,
+            small: OnceCell::new(),
         }
+    }
+
+    fn small_grids(&self) -> Option<[Grid; 2]> {
+        *self.small.get_or_init(|| {
+            let positions = self.ray.origin.into_iter().fold(self.scene, Grid::with);
+            let direction = self.ray.direction.into_iter().fold(Grid::NONE, Grid::with);
+            let is_small = positions.has_bits(MOST_BITS) && direction.has_bits(MOST_BITS);
+            is_small.then_some([positions, direction])
+        })
     }
 
     /// The t at which the line crosses a face's plane, to which it is not parallel.
     pub fn crossing(&self, triangle: &Triangle<f64>) -> Parameter {
-        match self.small {
+        match self.small_grids() {
             Some(grids) => Parameter::Small(self.on_grids(grids, triangle).crossing()),
             None => Parameter::Large(self.on_any_grid(triangle).crossing()),
         }
@@ -40,7 +49,7 @@ impl Exact {
 
     /// The first and the last t of the line and a face that it lies in, or that has no area; none without a common point.
     pub fn contact(&self, triangle: &Triangle<f64>) -> Option<[Parameter; 2]> {
-        if let Some(grids) = self.small {
+        if let Some(grids) = self.small_grids() {
             let seen = self.on_grids(grids, triangle);
             // Without area products of two offsets are needed, and 128 bits do not hold them.
             if seen.has_area() {

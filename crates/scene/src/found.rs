@@ -166,7 +166,8 @@ impl<T: Fn(u32) -> Triangle<f64>> Order<'_, T> {
         found.name(&(self.triangle)(found.place))
     }
 
-    fn parameter<'f>(&self, found: &'f Found, end: End) -> &'f Parameter {
+    /// An end, exactly.
+    pub fn parameter<'f>(&self, found: &'f Found, end: End) -> &'f Parameter {
         let ends = found.exact.get_or_init(|| {
             let t = self.exact.crossing(&(self.triangle)(found.place));
             Box::new([t.clone(), t])

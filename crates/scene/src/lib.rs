@@ -22,6 +22,7 @@ mod bounds;
 mod grid;
 mod mesh;
 mod ray;
+mod rounded;
 mod winding;
 
 mod closed;
@@ -43,6 +44,7 @@ mod build;
 mod scene;
 
 mod passage;
+mod values;
 
 pub use bounds::Bounds;
 pub use closed::Closed;
@@ -50,5 +52,7 @@ pub use define::{DefinedHit, define, nearest_of};
 pub use mesh::{MeshError, Triangle, triangles};
 pub use passage::{Location, Passage};
 pub use ray::{InvalidRay, Ray};
+pub use rounded::rounded;
 pub use scene::{Hit, Nearest, Scene};
+pub use values::Values;
 pub use winding::{OpenEdge, Winding};

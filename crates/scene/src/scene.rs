@@ -26,6 +26,8 @@ pub struct Scene<F: Float> {
     triangles: Vec<Triangle<F>>,
     /// The face of each of them.
     faces: Vec<u32>,
+    /// The place of each face among them; [`NO_PLACE`] if it is not finite.
+    places: Vec<u32>,
     not_finite: Vec<u32>,
     nodes: Vec<Node>,
     numbers: Numbers,
@@ -33,6 +35,8 @@ pub struct Scene<F: Float> {
     exponent: i32,
     closed: OnceLock<Closed>,
 }
+
+const NO_PLACE: u32 = u32::MAX;
 
 /// The least t at which a ray meets a mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,10 +90,15 @@ impl<F: Float> Scene<F> {
         let boxes: Vec<Aabb> = finite.iter().map(around).collect();
         let (nodes, order) = build(&boxes);
         let faces: Vec<u32> = order.into_iter().map(|i| finite[i as usize]).collect();
+        let mut places = vec![NO_PLACE; triangles.len()];
+        for (place, face) in faces.iter().enumerate() {
+            places[*face as usize] = place as u32;
+        }
         let ordered = faces.iter().map(|face| triangles[*face as usize]);
         Scene {
             triangles: ordered.collect(),
             faces,
+            places,
             not_finite,
             nodes,
             numbers: Numbers {
@@ -118,7 +127,7 @@ impl<F: Float> Scene<F> {
         let query = self.query(ray);
         let mut found: Vec<Found> = Vec::new();
         let mut least = f64::INFINITY;
-        self.visit(&ray, |place, triangle| {
+        self.visit_places(&ray, |place, triangle| {
             let new = query.meet(place, triangle, least)?;
             let is_nearer = new.from.upper < least;
             if is_nearer {
@@ -174,7 +183,7 @@ impl<F: Float> Scene<F> {
     /// Every face that a ray meets, in no order.
     pub(crate) fn all(&self, ray: &Ray<f64>, query: &Query) -> Vec<Found> {
         let mut found = Vec::new();
-        self.visit(ray, |place, triangle| {
+        self.visit_places(ray, |place, triangle| {
             found.extend(query.meet(place, triangle, f64::INFINITY));
             None
         });
@@ -193,10 +202,28 @@ impl<F: Float> Scene<F> {
         }
     }
 
-    /// Calls `visit` for each face whose box the ray meets, with its place in the tree. If `visit` gives a t, hits beyond
-    /// that t no longer count.
+    /// Calls `visit` for each face whose box the ray meets, roughly from near to far; no face that the ray meets is left
+    /// out. If `visit` gives a t, faces beyond it need not be visited any more. An error if the ray means nothing.
+    ///
+    /// The same tree for a triangle test of your own.
     #[inline(always)]
-    fn visit(&self, ray: &Ray<f64>, mut visit: impl FnMut(u32, &Triangle<f64>) -> Option<f64>) {
+    pub fn visit(
+        &self,
+        ray: &Ray<F>,
+        mut visit: impl FnMut(u32, &Triangle<f64>) -> Option<f64>,
+    ) -> Result<(), InvalidRay> {
+        let ray = ray.checked()?;
+        self.visit_places(&ray, |place, triangle| visit(self.face_at(place), triangle));
+        Ok(())
+    }
+
+    /// The same with a face's place in the tree.
+    #[inline(always)]
+    fn visit_places(
+        &self,
+        ray: &Ray<f64>,
+        mut visit: impl FnMut(u32, &Triangle<f64>) -> Option<f64>,
+    ) {
         let mut ray = TreeRay::new(ray, self.exponent);
         walk(&self.nodes, &mut ray, |place| {
             visit(place, &self.triangle_at(place))
@@ -206,6 +233,12 @@ impl<F: Float> Scene<F> {
     #[inline(always)]
     pub(crate) fn triangle_at(&self, place: u32) -> Triangle<f64> {
         widened(&self.triangles[place as usize])
+    }
+
+    /// None if there is no such face, or if it is not finite.
+    pub(crate) fn place_of(&self, face: u32) -> Option<u32> {
+        let place = self.places.get(face as usize).copied();
+        place.filter(|place| *place != NO_PLACE)
     }
 
     pub(crate) fn face_at(&self, place: u32) -> u32 {

@@ -15,10 +15,10 @@ fn check(met: Met) {
 
 #[test]
 fn hits_of_f32_scenes_are_those_of_the_definition() {
-    check(compare_many::<f32>(1, 5_000));
+    check(compare_many::<f32>(1, 3_000));
 }
 
 #[test]
 fn hits_of_f64_scenes_are_those_of_the_definition() {
-    check(compare_many::<f64>(1, 5_000));
+    check(compare_many::<f64>(1, 1_500));
 }

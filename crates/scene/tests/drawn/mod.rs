@@ -206,6 +206,13 @@ pub fn compare<F: Float>(mesh: &Drawn<F>, scene: &Scene<F>, ray: &Ray<F>, met: &
         assert!(holds(hit.from, &defined.from), "{hit:?} {}", about());
         assert!(holds(hit.to, &defined.to), "{hit:?} {}", about());
         assert_eq!(hit.is_segment, defined.from < defined.to, "{}", about());
+        let values = scene.fractions(ray, hit.faces[0]).unwrap().unwrap();
+        assert_eq!(
+            values.t,
+            [defined.from.clone(), defined.to.clone()],
+            "{}",
+            about()
+        );
         met.hits += 1;
         met.ties += u64::from(1 < hit.faces.len());
         met.segments += u64::from(hit.is_segment);

@@ -1,0 +1,179 @@
+//! What the exact nearest hit costs: `cargo bench -p hairline-scene [-- MESH]`.
+//!
+//! Microseconds a ray on one thread. `plain` is Möller and Trumbore in `f64` over the same tree in the same run, without
+//! any bound; the figure to watch is the exact nearest hit over it. Meshes and rays lie on the grid 2^-18, so that rays
+//! meet vertices, edges and planes exactly.
+
+mod meshes;
+
+use hairline_core::case::Draw;
+use hairline_scene::{Ray, Scene, Triangle};
+use meshes::{Mesh, icosphere, on_grid, soup, terrain};
+use std::hint::black_box;
+use std::time::Instant;
+
+const RAYS: usize = 20_000;
+
+type Maker = fn(&mut Draw, &Mesh) -> Ray<f32>;
+
+const KINDS: [(&str, Maker, f64); 6] = [
+    ("random", random, 1.25),
+    ("vertex", vertex, 2.0),
+    ("edge", edge, 2.0),
+    ("axis", axis, 2.0),
+    ("in plane", in_plane, 2.0),
+    ("grazing", grazing, 2.0),
+];
+
+fn ray(origin: [f64; 3], target: [f64; 3]) -> Ray<f32> {
+    let direction = [0, 1, 2].map(|i| target[i] - origin[i]);
+    Ray::new(origin.map(|x| x as f32), direction.map(|x| x as f32))
+}
+
+/// A point at some distance from the origin.
+fn around(draw: &mut Draw, distance: f64) -> [f64; 3] {
+    loop {
+        let point: [f64; 3] = draw.point();
+        let length = point.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if 0.1 < length && length < 1.0 {
+            return point.map(|x| on_grid(x * distance / length));
+        }
+    }
+}
+
+fn random(draw: &mut Draw, _: &Mesh) -> Ray<f32> {
+    let target = [(); 3].map(|()| 2.0 * draw.unit() - 1.0);
+    ray(around(draw, 3.5), target)
+}
+
+fn vertex(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
+    let [a, ..] = mesh.face(draw);
+    ray(around(draw, 2.0), a)
+}
+
+fn edge(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
+    let [a, b, _] = mesh.face(draw);
+    let middle = [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0);
+    ray(around(draw, 2.0), middle)
+}
+
+fn axis(draw: &mut Draw, _: &Mesh) -> Ray<f32> {
+    let [x, y] = [(); 2].map(|()| (draw.integer(-512, 512) as f64) / 512.0);
+    ray([x, y, 2.0], [x, y, 1.0])
+}
+
+/// In the plane of a face, exactly, and through it.
+fn in_plane(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
+    let [a, b, c] = mesh.face(draw);
+    let [k, l] = [(); 2].map(|()| (2 * draw.integer(-8, 8) + 1) as f64);
+    let at = |k: f64, l: f64| [0, 1, 2].map(|i| a[i] + k * (b[i] - a[i]) + l * (c[i] - a[i]));
+    ray(at(k, l), at(0.25, 0.5))
+}
+
+/// In the plane of a face but for rounding, and through it.
+fn grazing(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
+    let [a, b, c] = mesh.face(draw);
+    let [k, l, m, n] = [(); 4].map(|()| draw.unit());
+    let at = |k: f64, l: f64| [0, 1, 2].map(|i| a[i] + k * (b[i] - a[i]) + l * (c[i] - a[i]));
+    ray(at(3.0 + 37.0 * k, 3.0 + 37.0 * l), at(0.45 * m, 0.45 * n))
+}
+
+/// The nearest face and its t, as a renderer would have them.
+fn plain(scene: &Scene<f32>, ray: &Ray<f32>) -> Option<(u32, f64)> {
+    let (o, d) = (ray.origin.map(f64::from), ray.direction.map(f64::from));
+    let mut least = f64::INFINITY;
+    let mut nearest = None;
+    let visited = scene.visit(ray, |face, triangle| {
+        let t = moller_trumbore(o, d, triangle)?;
+        if t < 0.0 || least <= t {
+            return None;
+        }
+        least = t;
+        nearest = Some((face, t));
+        nearest.map(|(_, t)| t)
+    });
+    visited.ok()?;
+    nearest
+}
+
+#[inline(always)]
+fn moller_trumbore(o: [f64; 3], d: [f64; 3], [a, b, c]: &Triangle<f64>) -> Option<f64> {
+    let minus = |p: &[f64; 3], q: &[f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+    let dot = |p: &[f64; 3], q: &[f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let cross = |p: &[f64; 3], q: &[f64; 3]| {
+        [
+            p[1] * q[2] - p[2] * q[1],
+            p[2] * q[0] - p[0] * q[2],
+            p[0] * q[1] - p[1] * q[0],
+        ]
+    };
+    let (e, f) = (minus(b, a), minus(c, a));
+    let p = cross(&d, &f);
+    let determinant = dot(&e, &p);
+    if determinant == 0.0 {
+        return None;
+    }
+    let inverse = 1.0 / determinant;
+    let s = minus(&o, a);
+    let u = dot(&s, &p) * inverse;
+    if !(0.0..=1.0).contains(&u) {
+        return None;
+    }
+    let q = cross(&s, &e);
+    let v = dot(&d, &q) * inverse;
+    (0.0 <= v && u + v <= 1.0).then(|| dot(&f, &q) * inverse)
+}
+
+/// The least of three runs, in microseconds a ray.
+fn microseconds(rays: &[Ray<f32>], mut work: impl FnMut(&Ray<f32>)) -> f64 {
+    let mut least = f64::INFINITY;
+    for _ in 0..3 {
+        let start = Instant::now();
+        rays.iter().for_each(&mut work);
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    least * 1e6 / rays.len() as f64
+}
+
+fn lines(name: &str, mesh: &Mesh) {
+    let start = Instant::now();
+    let scene = Scene::new(&mesh.vertices, &mesh.faces).expect("a mesh");
+    println!(
+        "{name}: {} faces, built in {:.2} s",
+        mesh.faces.len(),
+        start.elapsed().as_secs_f64()
+    );
+    for (kind, make, aim) in KINDS {
+        let mut draw = Draw::new(kind, 1, 0);
+        let rays: Vec<Ray<f32>> = (0..RAYS).map(|_| make(&mut draw, mesh)).collect();
+        let mut hit = 0;
+        let plain = microseconds(&rays, |ray| hit += u64::from(plain(&scene, ray).is_some()));
+        let exact = microseconds(&rays, |ray| {
+            black_box(scene.nearest(ray).ok());
+        });
+        let all = microseconds(&rays, |ray| {
+            black_box(scene.hits(ray).ok());
+        });
+        println!(
+            "  {kind:9} plain {plain:6.2}  nearest {exact:6.2}  all {all:6.2}  nearest/plain {:5.2} (aim {aim})  hit {:.0} %",
+            exact / plain,
+            100.0 * hit as f64 / (3 * RAYS) as f64
+        );
+    }
+}
+
+fn main() {
+    let chosen = std::env::args()
+        .skip(1)
+        .find(|word| !word.starts_with("--"));
+    let meshes: [(&str, fn() -> Mesh); 3] = [
+        ("icosphere", || icosphere(6)),
+        ("terrain", || terrain(224)),
+        ("soup", || soup(100_000)),
+    ];
+    for (name, make) in meshes {
+        if chosen.as_deref().is_none_or(|chosen| chosen == name) {
+            lines(name, &make());
+        }
+    }
+}
