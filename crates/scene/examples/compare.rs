@@ -1,7 +1,7 @@
 //! Compares the fast answers with the definition on as many random scenes as you like:
 //! `cargo run --release -p hairline-scene --example compare -- 1000000 7` (rays of each scalar, seed).
 
-#[path = "../tests/drawn/mod.rs"]
+#[path = "../tests/scene/drawn.rs"]
 mod drawn;
 
 use drawn::compare_many;

@@ -27,7 +27,10 @@ impl<F: Float> Drawn<F> {
 #[derive(Clone, Copy)]
 pub struct Style {
     kind: usize,
-    exponent: i32,
+    /// Lattices have this unit.
+    pub exponent: i32,
+    /// Lattice points have coordinates up to this many units.
+    pub reach: i64,
 }
 
 impl Style {
@@ -39,11 +42,12 @@ impl Style {
         Style {
             kind: draw.below(8),
             exponent: draw.pick(&exponents).clamp(least, most),
+            reach: 2,
         }
     }
 
     fn number<F: Float>(self, draw: &mut Draw) -> F {
-        let lattice = draw.integer(-2, 2) as f64;
+        let lattice = draw.integer(-self.reach, self.reach) as f64;
         let scaled = |x: f64| F::from_f64(scale_by_power_of_two(x, self.exponent));
         match self.kind {
             // Coordinates of all sizes side by side.
@@ -62,7 +66,7 @@ impl Style {
         }
     }
 
-    fn point<F: Float>(self, draw: &mut Draw) -> [F; 3] {
+    pub fn point<F: Float>(self, draw: &mut Draw) -> [F; 3] {
         [(); 3].map(|()| self.number(draw))
     }
 }

@@ -1,8 +1,6 @@
 //! The fast answers are those of the definition.
 
-mod drawn;
-
-use drawn::{Met, compare_many};
+use crate::drawn::{Met, compare_many};
 
 fn check(met: Met) {
     let few = met.rays / 50;

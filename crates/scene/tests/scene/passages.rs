@@ -1,10 +1,8 @@
 //! Passages and locations are those of winding numbers from solid angles; open surfaces name an edge.
 
-mod solids;
-
+use crate::solids::{Faces, cube, cut_cube, scene, solids, turned, winding};
 use hairline_core::case::Draw;
 use hairline_scene::{Location, OpenEdge, Passage, Ray, Winding};
-use solids::{Faces, cube, cut_cube, scene, solids, turned, winding};
 
 fn lattice(draw: &mut Draw, bound: i64) -> [f64; 3] {
     draw.lattice_point(bound).map(|x| x as f64)

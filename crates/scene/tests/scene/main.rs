@@ -1,0 +1,10 @@
+//! Tests of whole scenes.
+
+mod drawn;
+mod solids;
+
+mod definition;
+mod laws;
+mod passages;
+mod reports;
+mod values;
