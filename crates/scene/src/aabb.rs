@@ -21,8 +21,7 @@ impl Aabb {
     pub fn around(triangle: &Triangle<f64>, exponent: i32) -> Aabb {
         let mut bounds = Aabb::EMPTY;
         for vertex in triangle {
-            for axis in 0..3 {
-                let x = vertex[axis];
+            for (axis, x) in vertex.iter().copied().enumerate() {
                 let scaled = scale_by_power_of_two(x, exponent);
                 bounds.min[axis] = bounds.min[axis].min(below(x, scaled));
                 bounds.max[axis] = bounds.max[axis].max(-below(-x, -scaled));

@@ -56,13 +56,24 @@ pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> S
     let p = cross(&ray.direction, &f);
     let all = dot(&e, &p);
     let weight_b = dot(&s, &p);
-    let weight_c = dot(&ray.direction, &cross(&s, &e));
-    let weight_a = all - weight_b - weight_c;
     let scale = 64.0 * U * direction_size;
     let (e_size, f_size, s_size) = (size(&e), size(&f), size(&s));
     let error_b = scale * s_size * f_size;
+    let error_all = scale * e_size * f_size;
+    // Most faces are missed, and many are done here: the weight of b is surely less than nothing, or more than all.
+    let (b_of_all, size_of_all) = if all < 0.0 {
+        (-weight_b, -all)
+    } else {
+        (weight_b, all)
+    };
+    let is_outside = b_of_all < -error_b || error_b + error_all < b_of_all - size_of_all;
+    if error_all < size_of_all && is_outside {
+        return Sorted::Misses;
+    }
+    let weight_c = dot(&ray.direction, &cross(&s, &e));
+    let weight_a = all - weight_b - weight_c;
     let error_c = scale * s_size * e_size;
-    let error_a = error_b + error_c + scale * e_size * f_size;
+    let error_a = error_b + error_c + error_all;
     let above =
         u8::from(error_a < weight_a) + u8::from(error_b < weight_b) + u8::from(error_c < weight_c);
     let below = u8::from(weight_a < -error_a)

@@ -43,23 +43,31 @@ impl Query {
     /// What the ray has in common with the face at a place. None also if that lies surely beyond a t.
     #[inline(always)]
     pub fn meet(&self, place: u32, triangle: &Triangle<f64>, beyond: f64) -> Option<Found> {
-        if self.is_moderate {
-            match sort(&self.ray, self.direction_size, triangle) {
-                Sorted::Misses => return None,
-                Sorted::Crosses => {
-                    if let Some((t, facing)) = plane_t(&self.ray, triangle) {
-                        if self.is_outside(t) || beyond < t.lower {
-                            return None;
-                        }
-                        if self.is_inside(t) {
-                            return Some(Found::crossing(place, facing, Feature::Interior, t));
-                        }
-                    }
-                }
-                Sorted::Unsure => {}
-            }
+        let sorted = if self.is_moderate {
+            sort(&self.ray, self.direction_size, triangle)
+        } else {
+            Sorted::Unsure
+        };
+        match sorted {
+            Sorted::Misses => None,
+            Sorted::Crosses => self.cross(place, triangle, beyond),
+            Sorted::Unsure => self.meet_exactly(place, triangle, beyond),
         }
-        self.meet_exactly(place, triangle, beyond)
+    }
+
+    /// The same for a line that surely crosses the inside of the face.
+    #[inline(never)]
+    fn cross(&self, place: u32, triangle: &Triangle<f64>, beyond: f64) -> Option<Found> {
+        let Some((t, facing)) = plane_t(&self.ray, triangle) else {
+            return self.meet_exactly(place, triangle, beyond);
+        };
+        if self.is_outside(t) || beyond < t.lower {
+            return None;
+        }
+        if !self.is_inside(t) {
+            return self.meet_exactly(place, triangle, beyond);
+        }
+        Some(Found::crossing(place, facing, Feature::Interior, t))
     }
 
     /// True if a t is surely outside the interval.

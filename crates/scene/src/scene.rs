@@ -125,31 +125,34 @@ impl<F: Float> Scene<F> {
     pub fn nearest(&self, ray: &Ray<F>) -> Result<Option<Nearest>, InvalidRay> {
         let ray = ray.checked()?;
         let query = self.query(ray);
-        let mut found: Vec<Found> = Vec::new();
+        // The face with the least upper bound, and those that may come before it. Seldom are there any.
+        let mut best: Option<Found> = None;
+        let mut rivals: Vec<Found> = Vec::new();
         let mut least = f64::INFINITY;
         self.visit_places(&ray, |place, triangle| {
-            let new = query.meet(place, triangle, least)?;
-            let is_nearer = new.from.upper < least;
-            if is_nearer {
-                least = new.from.upper;
-                found.retain(|old| old.from.lower <= least);
+            let found = query.meet(place, triangle, least)?;
+            if best.is_some() && least <= found.from.upper {
+                rivals.push(found);
+                return None;
             }
-            found.push(new);
-            is_nearer.then_some(least)
+            least = found.from.upper;
+            rivals.extend(best.replace(found));
+            rivals.retain(|rival| rival.from.lower <= least);
+            Some(least)
         });
-        Ok(self.first_of(&query, &found))
+        Ok(best.map(|best| self.first_of(&query, &best, &rivals)))
     }
 
-    /// The least of faces, exactly.
-    fn first_of(&self, query: &Query, found: &[Found]) -> Option<Nearest> {
+    /// The least of some faces, exactly.
+    fn first_of(&self, query: &Query, best: &Found, rivals: &[Found]) -> Nearest {
         let order = self.order(query);
-        let mut first = found.first()?;
-        let mut faces = vec![self.faces[first.place as usize]];
-        for other in &found[1..] {
-            let face = self.faces[other.place as usize];
-            match order.compare(other, End::From, first, End::From) {
+        let mut first = best;
+        let mut faces = vec![self.face_at(best.place)];
+        for rival in rivals {
+            let face = self.face_at(rival.place);
+            match order.compare(rival, End::From, first, End::From) {
                 Ordering::Less => {
-                    first = other;
+                    first = rival;
                     faces.clear();
                     faces.push(face);
                 }
@@ -158,10 +161,10 @@ impl<F: Float> Scene<F> {
             }
         }
         faces.sort();
-        Some(Nearest {
+        Nearest {
             t: first.from,
             faces,
-        })
+        }
     }
 
     /// All hits of a ray on its interval, ordered by their first t and then by their last one; exactly, whatever the bounds

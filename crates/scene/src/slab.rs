@@ -42,7 +42,8 @@ const SLACK: f64 = 8.0 * f64::EPSILON;
 pub struct TreeRay {
     origin: [f64; 3],
     reciprocal: [f64; 3],
-    is_backward: [bool; 3],
+    /// The plane at which the ray enters a slab: 0 for min, 1 for max.
+    near_plane: [usize; 3],
     /// τ = t times 2 to this power.
     exponent: i32,
     start: f64,
@@ -71,7 +72,7 @@ impl TreeRay {
         TreeRay {
             origin,
             reciprocal,
-            is_backward: ray.direction.map(f64::is_sign_negative),
+            near_plane: ray.direction.map(|x| usize::from(x.is_sign_negative())),
             exponent,
             start: -upper(-ray.t_min, exponent),
             end: upper(ray.t_max, exponent),
@@ -88,14 +89,11 @@ impl TreeRay {
     pub fn enters(&self, bounds: &Aabb) -> Option<f64> {
         let mut near = self.start;
         let mut far = self.end;
+        let planes = [&bounds.min, &bounds.max];
         for axis in 0..3 {
-            let min = (f64::from(bounds.min[axis]) - self.origin[axis]) * self.reciprocal[axis];
-            let max = (f64::from(bounds.max[axis]) - self.origin[axis]) * self.reciprocal[axis];
-            let (first, last) = if self.is_backward[axis] {
-                (max, min)
-            } else {
-                (min, max)
-            };
+            let at = |plane: f32| (f64::from(plane) - self.origin[axis]) * self.reciprocal[axis];
+            let first = at(planes[self.near_plane[axis]][axis]);
+            let last = at(planes[1 - self.near_plane[axis]][axis]);
             // A NaN is never taken.
             near = if first > near { first } else { near };
             far = if last < far { last } else { far };
@@ -117,7 +115,7 @@ fn is_plain(o: f64, scaled_o: f64, d: f64, scaled_d: f64) -> bool {
     const LEAST_ORIGIN: f64 = power_of_two(-400);
     const LARGEST_ORIGIN: f64 = power_of_two(300);
     let size = scaled_o.abs();
-    let origin_is_moderate = o == 0.0 || (LEAST_ORIGIN <= size && size <= LARGEST_ORIGIN);
+    let origin_is_moderate = o == 0.0 || (LEAST_ORIGIN..=LARGEST_ORIGIN).contains(&size);
     d == 0.0 || (LEAST_DIRECTION <= scaled_d.abs() && origin_is_moderate)
 }
 
