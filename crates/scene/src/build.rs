@@ -2,7 +2,7 @@
 //! hierarchies").
 
 use crate::aabb::Aabb;
-use crate::tree::{DEEPEST, IS_NODE, Node};
+use crate::tree::{Child, DEEPEST, Node};
 
 const BINS: usize = 16;
 /// A leaf has at most this many faces.
@@ -89,20 +89,14 @@ impl Builder<'_> {
         let place = self.nodes.len();
         self.nodes.push(Node {
             bounds: [Aabb::EMPTY; 2],
-            child: [0; 2],
-            count: [IS_NODE; 2],
+            children: [Child::leaf(0, 0); 2],
         });
         for (k, [from, to]) in [[start, half], [half, end]].into_iter().enumerate() {
             self.nodes[place].bounds[k] = self.around(from, to);
-            match self.cut(from, to, depth + 1) {
-                Some(middle) => {
-                    self.nodes[place].child[k] = self.add_node(from, middle, to, depth + 1);
-                }
-                None => {
-                    self.nodes[place].child[k] = from as u32;
-                    self.nodes[place].count[k] = (to - from) as u32;
-                }
-            }
+            self.nodes[place].children[k] = match self.cut(from, to, depth + 1) {
+                Some(middle) => Child::node(self.add_node(from, middle, to, depth + 1)),
+                None => Child::leaf(from as u32, (to - from) as u32),
+            };
         }
         place as u32
     }
@@ -188,11 +182,12 @@ mod tests {
     use super::*;
     use hairline_core::case::Draw;
 
-    fn depth(nodes: &[Node], place: u32) -> usize {
-        let node = &nodes[place as usize];
-        let below = |k: usize| match node.count[k] {
-            IS_NODE => depth(nodes, node.child[k]),
-            _ => 0,
+    fn depth(nodes: &[Node], place: usize) -> usize {
+        let node = &nodes[place];
+        let below = |k: usize| {
+            node.children[k]
+                .place()
+                .map_or(0, |place| depth(nodes, place))
         };
         1 + below(0).max(below(1))
     }
@@ -232,14 +227,15 @@ mod tests {
             for node in &nodes {
                 for k in 0..2 {
                     let mut bounds = node.bounds[k];
-                    if node.count[k] == IS_NODE {
-                        let below = nodes[node.child[k] as usize].bounds;
-                        bounds.join(&below[0]);
-                        bounds.join(&below[1]);
-                        assert_eq!(bounds, node.bounds[k]);
-                        continue;
-                    }
-                    let places = node.child[k]..node.child[k] + node.count[k];
+                    let places = match node.children[k].place() {
+                        Err(places) => places,
+                        Ok(place) => {
+                            bounds.join(&nodes[place].bounds[0]);
+                            bounds.join(&nodes[place].bounds[1]);
+                            assert_eq!(bounds, node.bounds[k]);
+                            continue;
+                        }
+                    };
                     assert!(places.len() <= MOST_IN_LEAF);
                     for place in places {
                         covered[place as usize] += 1;

@@ -8,14 +8,42 @@ use crate::slab::TreeRay;
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     pub bounds: [Aabb; 2],
-    /// The node of each child, or the first place of a leaf's faces.
-    pub child: [u32; 2],
-    /// How many faces a leaf has, or [`IS_NODE`].
-    pub count: [u32; 2],
+    pub children: [Child; 2],
+}
+
+/// Another node, or a leaf with some faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Child {
+    /// The place of the node, or of the leaf's first face.
+    first: u32,
+    /// The number of the leaf's faces, or [`IS_NODE`].
+    count: u32,
 }
 
 /// Marks a child that is a node.
-pub const IS_NODE: u32 = u32::MAX;
+const IS_NODE: u32 = u32::MAX;
+
+impl Child {
+    pub const fn node(place: u32) -> Child {
+        Child {
+            first: place,
+            count: IS_NODE,
+        }
+    }
+
+    pub const fn leaf(first: u32, count: u32) -> Child {
+        Child { first, count }
+    }
+
+    /// The place of the node; an error with the places of the faces if it is a leaf.
+    #[inline(always)]
+    pub fn place(self) -> Result<usize, std::ops::Range<u32>> {
+        if self.count == IS_NODE {
+            return Ok(self.first as usize);
+        }
+        Err(self.first..self.first + self.count)
+    }
+}
 
 /// The depth below which no tree goes: the builder's own limit, and halves of 2^32 faces.
 pub const DEEPEST: usize = 100;
@@ -27,49 +55,40 @@ pub fn walk(nodes: &[Node], ray: &mut TreeRay, mut visit: impl FnMut(u32) -> Opt
     if nodes.is_empty() {
         return;
     }
-    let mut waiting = [(0u32, 0.0f64); DEEPEST];
-    let mut depth = 0;
-    let mut node = &nodes[0];
-    loop {
-        let entries = [ray.enters(&node.bounds[0]), ray.enters(&node.bounds[1])];
-        let second_is_nearer = match entries {
-            [Some(first), Some(second)] => second < first,
+    let root = (Child::node(0), f64::NEG_INFINITY);
+    let mut waiting = [root; DEEPEST];
+    let mut count = 1;
+    while count != 0 {
+        count -= 1;
+        let (child, from) = waiting[count];
+        if ray.ends_before(from) {
+            continue;
+        }
+        let node = match child.place() {
+            Ok(place) => &nodes[place],
+            Err(faces) => {
+                for face in faces {
+                    if let Some(t) = visit(face) {
+                        ray.shorten(t);
+                    }
+                }
+                continue;
+            }
+        };
+        let first = ray.enters(&node.bounds[0]);
+        let second = ray.enters(&node.bounds[1]);
+        // What is pushed last comes out first: the nearer child.
+        let second_is_nearer = match (first, second) {
+            (Some(first), Some(second)) => second < first,
             _ => false,
         };
-        let first = usize::from(second_is_nearer);
-        // The farther child is pushed first, so that the nearer one comes out first. Leaves are visited at once.
-        let mut nearer = None;
-        let mut farther = None;
-        for (place, k) in [(&mut nearer, first), (&mut farther, 1 - first)] {
-            let Some(from) = entries[k] else {
-                continue;
-            };
-            if node.count[k] == IS_NODE {
-                *place = Some((node.child[k], from));
-                continue;
-            }
-            if ray.ends_before(from) {
-                continue;
-            }
-            for face in node.child[k]..node.child[k] + node.count[k] {
-                if let Some(t) = visit(face) {
-                    ray.shorten(t);
-                }
+        let [far, near] = if second_is_nearer { [0, 1] } else { [1, 0] };
+        let entries = [first, second];
+        for k in [far, near] {
+            if let Some(from) = entries[k] {
+                waiting[count] = (node.children[k], from);
+                count += 1;
             }
         }
-        for next in [farther, nearer].into_iter().flatten() {
-            waiting[depth] = next;
-            depth += 1;
-        }
-        node = loop {
-            if depth == 0 {
-                return;
-            }
-            depth -= 1;
-            let (next, from) = waiting[depth];
-            if !ray.ends_before(from) {
-                break &nodes[next as usize];
-            }
-        };
     }
 }
