@@ -182,6 +182,63 @@ fn lines(name: &str, mesh: &Mesh) {
     }
 }
 
+/// Scenes in which a ray meets very many faces: microseconds a face that is met.
+fn crowds() {
+    let line = |name: &str, scene: &Scene<f32>, rays: &[Ray<f32>]| {
+        let all = rays.iter().filter_map(|ray| scene.hits(ray).ok());
+        let met: usize = all.flatten().map(|hit| hit.faces.len()).sum();
+        let [nearest, hits] = microseconds(
+            rays,
+            [
+                &mut |rays| {
+                    rays.iter()
+                        .for_each(|ray| drop(black_box(scene.nearest(ray))))
+                },
+                &mut |rays| rays.iter().for_each(|ray| drop(black_box(scene.hits(ray)))),
+            ],
+        );
+        let met = met as f64 / rays.len() as f64;
+        println!(
+            "  {name:24} {met:5.0} faces met, nearest {:.2}, all {:.2}",
+            nearest / met,
+            hits / met
+        );
+    };
+    println!("crowds, µs a face that is met:");
+    let at = |i: i32| i as f32 / 256.0;
+    let flat = meshes::flat(316);
+    let flat = Scene::new(&flat.vertices, &flat.faces).expect("a mesh");
+    let along = |y: f32, slope: f32| Ray::new([-1.0, y, 0.0], [1.0, slope, 0.0]);
+    let rays = |make: &dyn Fn(i32) -> Ray<f32>| (0..100).map(make).collect::<Vec<_>>();
+    line(
+        "in a plane, on its lines",
+        &flat,
+        &rays(&|i| along(i as f32, 0.0)),
+    );
+    line(
+        "in a plane, beside them",
+        &flat,
+        &rays(&|i| along(i as f32 + 0.25, 0.0)),
+    );
+    line(
+        "in a plane, slanted",
+        &flat,
+        &rays(&|i| along(i as f32 + 0.25, 0.375)),
+    );
+    let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.1]];
+    let copies = Scene::new(&vertices, &[[0, 1, 2]; 1000]).expect("a mesh");
+    let at_copies = |i: i32| Ray::new([0.1, 0.1 + at(i), 1.0], [0.01, 0.02, -1.0]);
+    line("1000 copies of a face", &copies, &rays(&at_copies));
+    let fan = meshes::fan(1000);
+    let fan = Scene::new(&fan.vertices, &fan.faces).expect("a mesh");
+    let at_fan = |i: i32| Ray::new([0.5, at(i), 1.0], [-0.5, -at(i), -1.0]);
+    line("1000 faces at a vertex", &fan, &rays(&at_fan));
+    let shrinking = meshes::shrinking(1000);
+    let shrinking = Scene::new(&shrinking.vertices, &shrinking.faces).expect("a mesh");
+    let at_shrinking = |i: i32| Ray::new([0.5, at(i) + 0.002, 1.0], [-0.5, -at(i) - 0.002, -1.0]);
+    line("sizes from 1 to 2^-60", &shrinking, &rays(&at_shrinking));
+}
+
 fn main() {
     let chosen = std::env::args()
         .skip(1)
@@ -195,5 +252,8 @@ fn main() {
     }
     if is_chosen("soup") {
         lines("soup", &soup(100_000));
+    }
+    if is_chosen("crowds") {
+        crowds();
     }
 }

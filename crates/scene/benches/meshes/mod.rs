@@ -83,6 +83,12 @@ pub fn terrain(n: u32) -> Mesh {
             vertices.push(rounded([x, y, waves + (draw.unit() - 0.5) / 128.0]));
         }
     }
+    let faces = cells(n);
+    Mesh { vertices, faces }
+}
+
+/// Two faces for each of n×n cells between vertices in rows.
+fn cells(n: u32) -> Vec<[u32; 3]> {
     let mut faces = Vec::new();
     for i in 0..n {
         for j in 0..n {
@@ -90,7 +96,48 @@ pub fn terrain(n: u32) -> Mesh {
             faces.extend([[q, q + n + 1, q + n + 2], [q, q + n + 2, q + 1]]);
         }
     }
+    faces
+}
+
+/// A square of n×n cells of size 1 in the plane z = 0.
+pub fn flat(n: u32) -> Mesh {
+    let mut vertices = Vec::new();
+    for i in 0..=n {
+        for j in 0..=n {
+            vertices.push([i as f32, j as f32, 0.0]);
+        }
+    }
+    let faces = cells(n);
     Mesh { vertices, faces }
+}
+
+/// Faces that share the origin only.
+pub fn fan(count: u32) -> Mesh {
+    let corner = |i: u32| match i % 3 {
+        0 => [0.0; 3],
+        _ => {
+            let angle = i as f32;
+            [angle.cos(), angle.sin(), (angle * 0.37).sin() * 0.1]
+        }
+    };
+    unwelded(count, corner)
+}
+
+/// Faces about the origin whose sizes are 60 powers of two.
+pub fn shrinking(count: u32) -> Mesh {
+    let corner = |i: u32| {
+        let size = 0.77 * 2f32.powi(-((i / 3) as i32 % 60));
+        let angle = i as f32;
+        [angle.cos(), angle.sin(), (angle * 0.37).sin()].map(|x| size * x)
+    };
+    unwelded(count, corner)
+}
+
+fn unwelded(count: u32, corner: impl Fn(u32) -> [f32; 3]) -> Mesh {
+    Mesh {
+        vertices: (0..3 * count).map(corner).collect(),
+        faces: (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+    }
 }
 
 /// Faces anywhere; one in fifty repeats another one, and one in fifty has no area.
