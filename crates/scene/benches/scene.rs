@@ -1,4 +1,4 @@
-//! What the exact nearest hit costs: `cargo bench -p hairline-scene [-- MESH]`.
+//! The cost of the exact nearest hit: `cargo bench -p hairline-scene [-- MESH]`.
 //!
 //! Microseconds a ray on one thread. `plain` is Möller and Trumbore in `f64` over the same tree in the same run, without
 //! any bound; the figure to watch is the exact nearest hit over it. Meshes and rays lie on the grid 2^-18, so that rays

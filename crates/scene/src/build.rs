@@ -50,7 +50,7 @@ impl Bin {
         self.count += other.count;
     }
 
-    /// What its faces cost: a box of no faces costs nothing.
+    /// The cost of its faces: a box of no faces costs nothing.
     fn cost(&self) -> f32 {
         self.bounds.half_area() * self.count as f32
     }

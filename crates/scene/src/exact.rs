@@ -47,17 +47,18 @@ impl Exact {
         }
     }
 
-    /// The first and the last t of the line and a face that it lies in, or that has no area; none without a common point.
+    /// The first and the last t of the line and a face that it meets, and that it lies in or that has no area.
     pub fn contact(&self, triangle: &Triangle<f64>) -> Option<[Parameter; 2]> {
-        if let Some(grids) = self.small_grids() {
-            let seen = self.on_grids(grids, triangle);
-            // Without area products of two offsets are needed, and 128 bits do not hold them.
-            if seen.has_area() {
-                return Some(seen.contact()?.map(Parameter::Small));
+        match self.small_grids() {
+            Some(grids) => {
+                let range = self.on_grids(grids, triangle).contact()?;
+                Some(range.map(Parameter::Small))
+            }
+            None => {
+                let range = self.on_any_grid(triangle).contact()?;
+                Some(range.map(Parameter::Large))
             }
         }
-        let range = self.on_any_grid(triangle).contact()?;
-        Some(range.map(Parameter::Large))
     }
 
     fn on_grids(&self, [positions, direction]: [Grid; 2], triangle: &Triangle<f64>) -> Seen<i128> {
@@ -89,31 +90,22 @@ struct Seen<I> {
 }
 
 impl<I: Integer> Seen<I> {
-    fn normal(&self) -> IntegerVector<I> {
-        let [a, b, c] = &self.vertices;
-        cross(&minus(b, a), &minus(c, a))
-    }
-
-    fn has_area(&self) -> bool {
-        self.normal().iter().any(|x| !x.is_zero())
-    }
-
     /// T/D.
     fn crossing(&self) -> Fraction<I> {
-        let normal = self.normal();
+        let [a, b, c] = &self.vertices;
+        let normal = cross(&minus(b, a), &minus(c, a));
         let capital_t = dot(&self.vertices[0], &normal);
         let capital_d = dot(&self.direction, &normal);
         Fraction::new(capital_t, capital_d, self.exponent)
     }
 
     /// With r a vertex, d×r is zero where the vertex is on the line, and it is affine along edges. In a plane that holds
-    /// the line, and along a triangle without area, an edge whose ends have opposite d×r crosses the line. As
-    /// `hairline_core`'s contacts; those have no t.
+    /// the line, and along a triangle without area that has a point of the line, all d×r are multiples of one vector. So
+    /// an edge whose ends have opposite d×r crosses the line. As `hairline_core`'s contacts; those have no t.
     fn contact(&self) -> Option<[Fraction<I>; 2]> {
         let r = &self.vertices;
         let d = &self.direction;
         let offsets = r.each_ref().map(|r| cross(d, r));
-        let has_area = self.has_area();
         // t of a point of the line is r_m / d_m for any m with d_m ≠ 0.
         let m = (0..3).find(|m| !d[*m].is_zero())?;
         let mut first: Option<Fraction<I>> = None;
@@ -140,9 +132,7 @@ impl<I: Integer> Seen<I> {
                 continue;
             };
             let is_opposite = x[k].sign() == y[k].sign().reverse();
-            // In a plane all offsets are parallel.
-            let is_parallel = |l: usize| I::minor(&y[k], &x[l], &x[k], &y[l]).is_zero();
-            if is_opposite && (has_area || (0..3).all(is_parallel)) {
+            if is_opposite {
                 let numerator = I::minor(&y[k], &r[i][m], &x[k], &r[j][m]);
                 let denominator = (y[k].clone() - &x[k]) * &d[m];
                 touches(Fraction::new(numerator, denominator, self.exponent));

@@ -8,7 +8,7 @@ use hairline_core::{Facing, Feature};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// What a ray and a face have in common.
+/// The common points of a ray and a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Common {
     /// The point at which the line crosses the face's plane.

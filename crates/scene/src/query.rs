@@ -40,7 +40,7 @@ impl Query {
         }
     }
 
-    /// What the ray has in common with the face at a place. None also if that lies surely beyond a t.
+    /// The common points of the ray and the face at a place. None also if they lie surely beyond a t.
     #[inline(always)]
     pub fn meet(&self, place: u32, triangle: &Triangle<f64>, beyond: f64) -> Option<Found> {
         let sorted = if self.is_moderate {

@@ -131,3 +131,22 @@ fn upper(t: f64, exponent: i32) -> f64 {
     // An infinity that was finite is an upper bound already, or has the largest negative number above it.
     if is_exact { scaled } else { scaled.next_up() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn upper_bounds_are_above_what_underflows_and_near_it() {
+        let tiny = f64::from_bits(1);
+        assert_eq!(upper(3.0 * tiny, -1), 3.0 * tiny);
+        assert_eq!(upper(tiny, -1), tiny);
+        assert_eq!(upper(-tiny, -1), tiny);
+        assert_eq!(upper(5.0 * tiny, -1), 3.0 * tiny);
+        assert_eq!(upper(1.5, 700), 1.5 * 2f64.powi(700));
+        assert_eq!(upper(1e300, 700), f64::INFINITY);
+        assert_eq!(upper(-1e300, 700), f64::MIN);
+        assert_eq!(upper(f64::NEG_INFINITY, -700), f64::NEG_INFINITY);
+        assert_eq!(upper(f64::INFINITY, -700), f64::INFINITY);
+    }
+}

@@ -179,7 +179,7 @@ pub fn ray<F: Float>(draw: &mut Draw, style: Style, mesh: &Drawn<F>) -> Ray<F> {
     }
 }
 
-/// What a comparison met.
+/// Counts of what a comparison met.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Met {
     pub rays: u64,

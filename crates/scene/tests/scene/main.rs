@@ -4,6 +4,7 @@ mod drawn;
 mod solids;
 
 mod definition;
+mod extremes;
 mod laws;
 mod passages;
 mod reports;
