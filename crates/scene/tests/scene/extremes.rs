@@ -5,11 +5,11 @@ use hairline_core::case::Draw;
 use hairline_core::{Case, truth};
 use hairline_scene::{Ray, Scene, Triangle};
 
-/// Two faces: the tree has a box for each of them, and each is one plane thick.
+/// A face, and another one on the side of larger x: the box of both begins where the first one does.
 fn scene(face: Triangle<f64>) -> Scene<f64> {
-    let [a, b, c] = face;
-    let far = [a, b, c].map(|vertex| vertex.map(|x| -x));
-    let vertices: Vec<[f64; 3]> = face.into_iter().chain(far).collect();
+    let away = 4.0 * face[1][0];
+    let other = face.map(|[x, y, z]| [x + away, y, z]);
+    let vertices = [face, other].concat();
     Scene::new(&vertices, &[[0, 1, 2], [3, 4, 5]]).unwrap()
 }
 

@@ -207,3 +207,27 @@ fn faces_of_mixed_orientation_leave_the_parity() {
         }
     }
 }
+
+#[test]
+fn between_a_face_and_a_turned_one_only_the_parity_is_defined() {
+    let mut faces = cube();
+    let [a, b, c] = faces[0];
+    faces[0] = turned(faces[0]);
+    let scene = scene(&faces);
+    assert!(scene.closed().oriented.is_err());
+    let change = |through: [f64; 3]| {
+        let direction = [0.25, 0.375, 0.5];
+        let origin = [0, 1, 2].map(|i| through[i] - direction[i]);
+        let ray = Ray::new(origin, direction).on(1.0, 1.0);
+        scene.passages(&ray).unwrap()[0].change
+    };
+    let middle = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|i| (p[i] + q[i]) / 2.0);
+    for (p, q) in [(a, b), (b, c), (c, a)] {
+        assert!(
+            matches!(change(middle(p, q)), Ok(Winding::IsOdd(_))),
+            "{p:?} {q:?}"
+        );
+    }
+    // In its inside the turned face is just one that is seen from behind.
+    assert_eq!(change(middle(middle(a, b), c)), Ok(Winding::Number(-1)));
+}
