@@ -25,8 +25,12 @@ fn finds_face_0(scene: &Scene<f64>, ray: &Ray<f64>) -> bool {
 
 #[test]
 fn a_reciprocal_that_overflows_loses_nothing() {
+    // At t = 2^900 the ray is at x = 2^-126, inside the box that it started beside.
+    let power = |exponent: i32| scale_by_power_of_two(1.0, exponent);
+    let ray = Ray::new([-power(-126), 0.25, power(900)], [power(-1025), 0.0, -1.0]);
+    assert!(finds_face_0(&scene(corner(1.0)), &ray));
+    // At t = 1 it is at x = 2^-1074.
     let tiny = f64::from_bits(1);
-    // At t = 1 the ray is at x = 2^-1074, on the face's edge of length 1 but for that.
     let ray = Ray::new([-tiny, 0.25, 1.0], [2.0 * tiny, 0.0, -1.0]);
     assert!(finds_face_0(&scene(corner(1.0)), &ray));
 }
