@@ -61,7 +61,11 @@ impl Style {
             // Next to the lattice.
             2 => scaled(lattice).offset_ulps(draw.integer(-1, 1)),
             // A lattice too fine for 128 bits.
-            3 => scaled(draw.integer(-(1 << 20), 1 << 20) as f64 + lattice * 2f64.powi(-25)),
+            3 => {
+                let fine = draw.integer(-(1 << 20), 1 << 20) as f64 + lattice * 2f64.powi(-25);
+                let exponent = self.exponent.min(F::MAX_EXPONENT - 24);
+                F::from_f64(scale_by_power_of_two(fine, exponent))
+            }
             _ => scaled(lattice),
         }
     }
@@ -157,24 +161,21 @@ pub fn ray<F: Float>(draw: &mut Draw, style: Style, mesh: &Drawn<F>) -> Ray<F> {
         5 => direction = draw.lattice_point(3).map(|x| F::from_f64(x as f64)),
         _ => {}
     }
+    if direction.iter().all(F::is_zero) {
+        direction[draw.below(3)] = draw.pick(&[F::one(), -F::one()]);
+    }
     let power = draw.pick(&[0, 0, 0, 1, -1, 90, -90, 700, -700]);
-    let direction = direction.map(|x| F::from_f64(scale_by_power_of_two(x.to_f64(), power)));
-    let ends = [
-        0.0,
-        -0.0,
-        1.0,
-        0.5,
-        2.0,
-        -1.0,
-        f64::INFINITY,
-        -f64::INFINITY,
-        1e-300,
-    ];
-    let ray = Ray::new(origin, direction);
-    match draw.below(3) {
+    let scaled = direction.map(|x| F::from_f64(scale_by_power_of_two(x.to_f64(), power)));
+    let is_usable = scaled.iter().all(F::is_finite) && !scaled.iter().all(F::is_zero);
+    let ray = Ray::new(origin, if is_usable { scaled } else { direction });
+    let (infinity, tiny) = (f64::INFINITY, 1e-300);
+    let ends = [0.0, -0.0, 1.0, 0.5, 2.0, -1.0, infinity, -infinity, tiny];
+    let [low, high] = [draw.pick(&ends), draw.pick(&ends)];
+    match draw.below(12) {
         // Hits at the target are at the ends, if the direction is that to the target.
-        0 => ray.on(F::from_f64(draw.pick(&ends)), F::from_f64(draw.pick(&ends))),
-        1 => ray.on(-F::infinity(), F::infinity()),
+        0..4 => ray.on(F::from_f64(low.min(high)), F::from_f64(low.max(high))),
+        4..8 => ray.on(-F::infinity(), F::infinity()),
+        8 => ray.on(F::from_f64(low), F::from_f64(high)),
         _ => ray,
     }
 }
