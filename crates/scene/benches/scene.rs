@@ -124,12 +124,11 @@ fn moller_trumbore(o: [f64; 3], d: [f64; 3], [a, b, c]: &Triangle<f64>) -> Optio
     (0.0 <= v && u + v <= 1.0).then(|| dot(&f, &q) * inverse)
 }
 
+type Work<'a, T> = &'a mut dyn FnMut(&[T]);
+
 /// Microseconds a ray. Rays come in small groups and each group's least time of several runs counts, so that other programs
 /// on the machine disturb little.
-fn microseconds<const N: usize>(
-    rays: &[Ray<f32>],
-    mut work: [&mut dyn FnMut(&[Ray<f32>]); N],
-) -> [f64; N] {
+fn microseconds<T, const N: usize>(rays: &[T], mut work: [Work<T>; N]) -> [f64; N] {
     let mut sums = [0.0; N];
     for group in rays.chunks(500) {
         let mut least = [f64::INFINITY; N];
@@ -179,6 +178,40 @@ fn lines(name: &str, mesh: &Mesh) {
             "  {kind:9} plain {plain:6.2}  nearest {nearest:6.2}  all {all:6.2}  nearest/plain {:5.2} (aim {aim})  hit {share:.0} %",
             nearest / plain,
         );
+    }
+}
+
+/// Points inside and outside, at vertices, and near the surface.
+fn points(mesh: &Mesh) {
+    let scene = Scene::new(&mesh.vertices, &mesh.faces).expect("a mesh");
+    let mut draw = Draw::new("points", 1, 0);
+    let mut anywhere = Vec::new();
+    let mut near = Vec::new();
+    let mut vertices = Vec::new();
+    for _ in 0..2000 {
+        anywhere.push([(); 3].map(|()| (2.0 * draw.unit() - 1.0) as f32));
+        let [a, b, c] = mesh.face(&mut draw);
+        let factor = 1.0 + 1e-7 * (draw.unit() - 0.5);
+        near.push([0, 1, 2].map(|i| (factor * (a[i] + b[i] + c[i]) / 3.0) as f32));
+        vertices.push(a.map(|x| x as f32));
+    }
+    // The edges are compared once, at the first point.
+    black_box(scene.locate(anywhere[0]).ok());
+    println!("points, µs each:");
+    for (name, points) in [
+        ("anywhere", anywhere),
+        ("near the surface", near),
+        ("vertices", vertices),
+    ] {
+        let [time] = microseconds(
+            &points,
+            [&mut |points: &[[f32; 3]]| {
+                points
+                    .iter()
+                    .for_each(|point| drop(black_box(scene.locate(*point))))
+            }],
+        );
+        println!("  {name:16} {time:.2}");
     }
 }
 
@@ -252,6 +285,13 @@ fn main() {
     }
     if is_chosen("soup") {
         lines("soup", &soup(100_000));
+    }
+    if is_chosen("points") {
+        points(&icosphere(6));
+    }
+    // Only if it is asked for: 10^7 faces.
+    if chosen.as_deref() == Some("large") {
+        lines("large", &terrain(2236));
     }
     if is_chosen("crowds") {
         crowds();

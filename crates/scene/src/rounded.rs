@@ -84,7 +84,11 @@ mod tests {
             assert_eq!(rounded(&exact(x)), x);
             assert_eq!(rounded(&-exact(x)), -x);
             let middle = middle_above(x);
-            let even = if x.to_bits() % 2 == 0 { x } else { x.next_up() };
+            let even = if x.to_bits().is_multiple_of(2) {
+                x
+            } else {
+                x.next_up()
+            };
             assert_eq!(rounded(&middle), even, "{x:e}");
             assert_eq!(rounded(&(&middle - &tiny)), x, "{x:e}");
             assert_eq!(rounded(&(&middle + &tiny)), x.next_up(), "{x:e}");
