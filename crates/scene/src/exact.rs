@@ -1,0 +1,143 @@
+//! A face seen from a ray in integers: the exact t of a crossing, and the part of a line that lies in a face.
+
+use crate::fraction::{Fraction, Parameter};
+use crate::grid::Grid;
+use crate::mesh::Triangle;
+use crate::ray::Ray;
+use hairline_core::oracle::integer::{Integer, IntegerVector, align, cross, dot, minus};
+use num_bigint::BigInt;
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+
+/// With 38 bits a coordinate T is below 2^120 and D below 2^119; the fractions of contacts are below 2^118 over 2^117.
+const MOST_BITS: i64 = 38;
+
+/// The exact t of a ray and some faces, in 128 bits if their grid allows.
+pub struct Exact {
+    ray: Ray<f64>,
+    scene: Grid,
+    /// The grids of all positions and of the direction, if 128 bits hold what is made of them.
+    small: OnceCell<Option<[Grid; 2]>>,
+}
+
+impl Exact {
+    /// A ray against faces whose coordinates are on a grid.
+    pub fn new(ray: Ray<f64>, scene: Grid) -> Exact {
+        Exact {
+            ray,
+            scene,
+            small: OnceCell::new(),
+        }
+    }
+
+    fn small_grids(&self) -> Option<[Grid; 2]> {
+        *self.small.get_or_init(|| {
+            let positions = self.ray.origin.into_iter().fold(self.scene, Grid::with);
+            let direction = self.ray.direction.into_iter().fold(Grid::NONE, Grid::with);
+            let is_small = positions.has_bits(MOST_BITS) && direction.has_bits(MOST_BITS);
+            is_small.then_some([positions, direction])
+        })
+    }
+
+    /// The t at which the line crosses a face's plane, to which it is not parallel.
+    pub fn crossing(&self, triangle: &Triangle<f64>) -> Parameter {
+        match self.small_grids() {
+            Some(grids) => Parameter::Small(self.on_grids(grids, triangle).crossing()),
+            None => Parameter::Large(self.on_any_grid(triangle).crossing()),
+        }
+    }
+
+    /// The first and the last t of the line and a face that it meets, and that it lies in or that has no area.
+    pub fn contact(&self, triangle: &Triangle<f64>) -> Option<[Parameter; 2]> {
+        match self.small_grids() {
+            Some(grids) => {
+                let range = self.on_grids(grids, triangle).contact()?;
+                Some(range.map(Parameter::Small))
+            }
+            None => {
+                let range = self.on_any_grid(triangle).contact()?;
+                Some(range.map(Parameter::Large))
+            }
+        }
+    }
+
+    fn on_grids(&self, [positions, direction]: [Grid; 2], triangle: &Triangle<f64>) -> Seen<i128> {
+        let position = |point: [f64; 3]| point.map(|x| positions.integer(x));
+        let origin = position(self.ray.origin);
+        Seen {
+            direction: self.ray.direction.map(|x| direction.integer(x)),
+            vertices: triangle.map(|vertex| minus(&position(vertex), &origin)),
+            exponent: positions.unit() - direction.unit(),
+        }
+    }
+
+    fn on_any_grid(&self, [a, b, c]: &Triangle<f64>) -> Seen<BigInt> {
+        let ([origin, vertices @ ..], unit) = align([self.ray.origin, *a, *b, *c]);
+        let ([direction], direction_unit) = align([self.ray.direction]);
+        Seen {
+            direction,
+            vertices: vertices.map(|vertex| minus(&vertex, &origin)),
+            exponent: unit - direction_unit,
+        }
+    }
+}
+
+/// A direction, and vertices seen from the origin, in integers of two grids. t carries 2 to the power of `exponent`.
+struct Seen<I> {
+    direction: IntegerVector<I>,
+    vertices: [IntegerVector<I>; 3],
+    exponent: i64,
+}
+
+impl<I: Integer> Seen<I> {
+    /// T/D.
+    fn crossing(&self) -> Fraction<I> {
+        let [a, b, c] = &self.vertices;
+        let normal = cross(&minus(b, a), &minus(c, a));
+        let capital_t = dot(&self.vertices[0], &normal);
+        let capital_d = dot(&self.direction, &normal);
+        Fraction::new(capital_t, capital_d, self.exponent)
+    }
+
+    /// With r a vertex, d×r is zero where the vertex is on the line, and it is affine along edges. In a plane that holds
+    /// the line, and along a triangle without area that has a point of the line, all d×r are multiples of one vector. So
+    /// an edge whose ends have opposite d×r crosses the line. As `hairline_core`'s contacts; those have no t.
+    fn contact(&self) -> Option<[Fraction<I>; 2]> {
+        let r = &self.vertices;
+        let d = &self.direction;
+        let offsets = r.each_ref().map(|r| cross(d, r));
+        // t of a point of the line is r_m / d_m for any m with d_m ≠ 0.
+        let m = (0..3).find(|m| !d[*m].is_zero())?;
+        let mut first: Option<Fraction<I>> = None;
+        let mut last: Option<Fraction<I>> = None;
+        let mut touches = |t: Fraction<I>| {
+            if first
+                .as_ref()
+                .is_none_or(|first| t.compare(first) == Ordering::Less)
+            {
+                first = Some(t.clone());
+            }
+            if last
+                .as_ref()
+                .is_none_or(|last| t.compare(last) == Ordering::Greater)
+            {
+                last = Some(t);
+            }
+        };
+        for i in 0..3 {
+            let j = (i + 1) % 3;
+            let (x, y) = (&offsets[i], &offsets[j]);
+            let Some(k) = (0..3).find(|k| !x[*k].is_zero()) else {
+                touches(Fraction::new(r[i][m].clone(), d[m].clone(), self.exponent));
+                continue;
+            };
+            let is_opposite = x[k].sign() == y[k].sign().reverse();
+            if is_opposite {
+                let numerator = I::minor(&y[k], &r[i][m], &x[k], &r[j][m]);
+                let denominator = (y[k].clone() - &x[k]) * &d[m];
+                touches(Fraction::new(numerator, denominator, self.exponent));
+            }
+        }
+        Some([first?, last?])
+    }
+}

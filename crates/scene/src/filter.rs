@@ -1,0 +1,156 @@
+//! The first look at a face: in `f64`, each number with a bound on its error, for moderate numbers only.
+//!
+//! **Moderate.** All coordinates are 0 or within 2^-150 and 2^150; every `f32` is. Coordinates are then multiples of
+//! 2^-202, so differences are 0 or at least 2^-202, products of three are 0 or at least 2^-606 and below 2^460: nothing
+//! over- or underflows but a quotient, which has a term of its own.
+//!
+//! **Weights** (Möller and Trumbore 1997). With e = b-a, f = c-a and s = o-a the weights of b and c are s·(d×f) and
+//! d·(s×e), and all three add up to e·(d×f). Each is a sum of six products of three numbers, each product with at most 7
+//! roundings (two differences, a product, a difference, a product, two sums). It is therefore off by at most
+//! ((1+u)^7 - 1)·6·|d|·|s|·|f| with the largest sizes of components, exact ones, which are computed ones within 1 ± u:
+//! below 43u·|d||s||f|. The weight of a is a difference of all three, with 2 roundings more for two of them: below
+//! 43u + 2·6u·(1 + 8u) < 56u of each product of sizes. All are below 64u, which also covers the 3 roundings of the bounds.
+//!
+//! **t = T/D** with N = e×f, T = N·(a-o) and D = N·d. D has 7 roundings, T has 8; in terms of the computed permanents (the
+//! sums of absolute values, with as many roundings) the errors are below 8u and 16u, as in the filter of
+//! `hairline_core`. With computed T̂, D̂, q = fl(T̂/D̂) and their errors, t is off from T̂/D̂ by at most
+//! (T_error + |T̂/D̂|·D_error) / (|D̂| - D_error). Six roundings and those of q, below 16u relative, are added, for q and the
+//! ends of the interval 4u·|q|, and 2^-1000 for a quotient that underflows.
+
+use crate::bounds::Bounds;
+use crate::mesh::Triangle;
+use crate::ray::Ray;
+use hairline_core::Facing;
+
+const U: f64 = f64::EPSILON / 2.0;
+/// More than a quotient loses by underflow: 2^-1000.
+const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
+
+type Vector = [f64; 3];
+
+/// How the line of a ray and a triangle surely meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sorted {
+    /// Not at all.
+    Misses,
+    /// At one point inside the triangle.
+    Crosses,
+    /// The bounds do not tell.
+    Unsure,
+}
+
+/// True if the filter's bounds hold for these numbers.
+pub fn are_moderate(numbers: &[f64]) -> bool {
+    const LEAST: f64 = f64::from_bits((1023 - 150) << 52);
+    const MOST: f64 = f64::from_bits((1023 + 150) << 52);
+    let is_moderate = |x: &f64| *x == 0.0 || (LEAST <= x.abs() && x.abs() <= MOST);
+    numbers.iter().all(is_moderate)
+}
+
+/// Sorts a triangle by the signs of its weights. `direction_size` is the largest size of a component of the direction.
+#[inline(always)]
+pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> Sorted {
+    let e = minus(b, a);
+    let f = minus(c, a);
+    let s = minus(&ray.origin, a);
+    let p = cross(&ray.direction, &f);
+    let all = dot(&e, &p);
+    let weight_b = dot(&s, &p);
+    let scale = 64.0 * U * direction_size;
+    let (e_size, f_size, s_size) = (size(&e), size(&f), size(&s));
+    let error_b = scale * s_size * f_size;
+    let error_all = scale * e_size * f_size;
+    // Most faces are missed, and many are done here: the weight of b is surely less than nothing, or more than all.
+    let (b_of_all, size_of_all) = if all < 0.0 {
+        (-weight_b, -all)
+    } else {
+        (weight_b, all)
+    };
+    let is_outside = b_of_all < -error_b || error_b + error_all < b_of_all - size_of_all;
+    if error_all < size_of_all && is_outside {
+        return Sorted::Misses;
+    }
+    let weight_c = dot(&ray.direction, &cross(&s, &e));
+    let weight_a = all - weight_b - weight_c;
+    let error_c = scale * s_size * e_size;
+    let error_a = error_b + error_c + error_all;
+    let above =
+        u8::from(error_a < weight_a) + u8::from(error_b < weight_b) + u8::from(error_c < weight_c);
+    let below = u8::from(weight_a < -error_a)
+        + u8::from(weight_b < -error_b)
+        + u8::from(weight_c < -error_c);
+    if 0 < above && 0 < below {
+        Sorted::Misses
+    } else if above == 3 || below == 3 {
+        Sorted::Crosses
+    } else {
+        Sorted::Unsure
+    }
+}
+
+/// The t at which a line meets the plane of a triangle, and the side from which; none if the line may be parallel.
+#[inline(always)]
+pub fn plane_t(ray: &Ray<f64>, [a, b, c]: &Triangle<f64>) -> Option<(Bounds, Facing)> {
+    let e = minus(b, a);
+    let f = minus(c, a);
+    let to_a = minus(a, &ray.origin);
+    let normal = cross(&e, &f);
+    let permanent = cross_permanent(&e, &f);
+    let capital_d = dot(&ray.direction, &normal);
+    let d_error = 8.0 * U * dot(&ray.direction.map(f64::abs), &permanent);
+    let d_size = capital_d.abs();
+    if d_size <= d_error {
+        return None;
+    }
+    let capital_t = dot(&to_a, &normal);
+    let t_error = 16.0 * U * dot(&to_a.map(f64::abs), &permanent);
+    let t = capital_t / capital_d;
+    let error = (t_error + t.abs() * d_error) / (d_size - d_error);
+    let error = error * (1.0 + 16.0 * U) + 4.0 * U * t.abs() + UNDERFLOW;
+    let facing = if capital_d < 0.0 {
+        Facing::Front
+    } else {
+        Facing::Back
+    };
+    let bounds = Bounds {
+        lower: t - error,
+        upper: t + error,
+    };
+    Some((bounds, facing))
+}
+
+#[inline(always)]
+fn minus(a: &Vector, b: &Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn dot(a: &Vector, b: &Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// The cross product with sums of absolute values.
+#[inline(always)]
+fn cross_permanent(a: &Vector, b: &Vector) -> Vector {
+    let [a, b] = [a.map(f64::abs), b.map(f64::abs)];
+    [
+        a[1] * b[2] + a[2] * b[1],
+        a[2] * b[0] + a[0] * b[2],
+        a[0] * b[1] + a[1] * b[0],
+    ]
+}
+
+/// The largest size of a component.
+#[inline(always)]
+pub fn size(a: &Vector) -> f64 {
+    a[0].abs().max(a[1].abs()).max(a[2].abs())
+}

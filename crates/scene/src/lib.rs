@@ -1,0 +1,58 @@
+//! An exact answer to "where does this ray meet this mesh?" for every finite `f32` and `f64`: the nearest faces, and all
+//! hits in order.
+//!
+//! ```
+//! use hairline_scene::{Ray, Scene};
+//!
+//! // A square of two faces, hit on the diagonal that they share.
+//! let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+//! let scene = Scene::<f64>::new(&vertices, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+//! let ray = Ray::new([0.25, 0.25, 1.0], [0.0, 0.0, -1.0]);
+//! let nearest = scene.nearest(&ray).unwrap().unwrap();
+//! assert_eq!(nearest.faces, [0, 1]);
+//! ```
+//!
+//! [`define`] is the definition, in rationals and over all faces. A [`Scene`] gives the same answers fast: a tree whose
+//! box test loses nothing, a filter in floats with bounds, and integers where the bounds do not tell.
+
+#![forbid(unsafe_code)]
+
+// From the ground up: each block uses only those above it.
+mod bounds;
+mod grid;
+mod mesh;
+mod ray;
+mod rounded;
+mod winding;
+
+mod closed;
+mod define;
+mod moved;
+
+mod aabb;
+mod exact;
+mod filter;
+mod fraction;
+
+mod found;
+mod query;
+mod slab;
+mod tree;
+
+mod build;
+
+mod scene;
+
+mod passage;
+mod values;
+
+pub use bounds::Bounds;
+pub use closed::Closed;
+pub use define::{DefinedHit, define, nearest_of};
+pub use mesh::{MeshError, Triangle, triangles};
+pub use passage::{Location, Passage};
+pub use ray::{InvalidRay, Ray};
+pub use rounded::rounded;
+pub use scene::{Hit, Nearest, Scene};
+pub use values::Values;
+pub use winding::{OpenEdge, Winding};

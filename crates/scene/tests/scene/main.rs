@@ -1,0 +1,11 @@
+//! Tests of whole scenes.
+
+mod drawn;
+mod solids;
+
+mod definition;
+mod extremes;
+mod laws;
+mod passages;
+mod reports;
+mod values;

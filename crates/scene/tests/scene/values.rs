@@ -1,0 +1,52 @@
+//! The numbers of hits: known ones, and what they have to agree with.
+
+use hairline_core::Facing;
+use hairline_core::case::Draw;
+use hairline_scene::{Ray, Scene, rounded};
+
+#[test]
+fn a_crossing_has_t_point_side_and_weights() {
+    let vertices = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+    let scene = Scene::<f64>::new(&vertices, &[[0, 1, 2]]).unwrap();
+    let ray = Ray::new([1.0, 1.0, 1.0], [0.0, 0.0, -3.0]);
+    let values = scene.values(&ray, 0).unwrap().unwrap();
+    assert_eq!(values.t, [1.0 / 3.0; 2]);
+    assert_eq!(values.points, [[1.0, 1.0, 0.0]; 2]);
+    assert_eq!(values.facing, Some(Facing::Front));
+    assert_eq!(values.uv, Some([1.0 / 3.0; 2]));
+    assert_eq!(scene.values(&ray, 1).unwrap(), None, "no such face");
+    assert_eq!(scene.values(&ray.on(0.5, 1.0), 0).unwrap(), None);
+    // In the plane: from the origin to the far edge.
+    let along = Ray::new([1.0, 1.0, 0.0], [2.0, 0.0, 0.0]);
+    let values = scene.values(&along, 0).unwrap().unwrap();
+    assert_eq!(values.t, [0.0, 0.5]);
+    assert_eq!(values.points, [[1.0, 1.0, 0.0], [2.0, 1.0, 0.0]]);
+    assert_eq!((values.facing, values.uv), (None, None));
+}
+
+#[test]
+fn the_point_of_t_is_the_point_of_the_weights() {
+    let mut hits = 0;
+    for index in 0..2000 {
+        let mut draw = Draw::new("values", 1, index);
+        let vertices: [[f64; 3]; 3] = [(); 3].map(|()| draw.point());
+        let scene = Scene::new(&vertices, &[[0, 1, 2]]).unwrap();
+        let origin: [f64; 3] = draw.point();
+        let target = [0, 1, 2].map(|i| (vertices[0][i] + vertices[1][i]) / 2.0);
+        let ray = Ray::new(origin, [0, 1, 2].map(|i| target[i] - origin[i]));
+        let Some(exact) = scene.fractions(&ray, 0).unwrap() else {
+            continue;
+        };
+        let rational = |x: f64| num_rational::BigRational::from_float(x).unwrap();
+        let [u, v] = exact.uv.unwrap();
+        for axis in 0..3 {
+            let [a, b, c] = vertices.map(|vertex| rational(vertex[axis]));
+            let point = &a + &u * (b - &a) + &v * (c - &a);
+            assert_eq!(exact.points[0][axis], point);
+        }
+        let values = scene.values(&ray, 0).unwrap().unwrap();
+        assert_eq!(values.t, exact.t.each_ref().map(rounded));
+        hits += 1;
+    }
+    assert!(100 < hits);
+}
