@@ -40,6 +40,7 @@ mod pace;
 mod plugins;
 mod progress;
 mod prove;
+mod rays;
 mod repair;
 mod reporting;
 mod select;
@@ -95,6 +96,8 @@ enum Chosen {
     Explain(explain::ExplainArguments),
     /// Judge ray-box tests
     Boxes(boxes::BoxesArguments),
+    /// Say what rays meet in a mesh, exactly, and judge what a program answered
+    Rays(Box<rays::RaysArguments>),
     /// Draw where a kernel is wrong around a case, a pixel a float
     Map(Box<map::MapArguments>),
     /// List kernels, families, contracts, epsilon presets or arithmetics
@@ -140,7 +143,7 @@ enum Chosen {
 }
 
 /// The commands by what they are for, in the order of the help.
-const GROUPS: [(&str, &[&str]); 7] = [
+const GROUPS: [(&str, &[&str]); 8] = [
     (
         "Choose an epsilon",
         &[
@@ -148,6 +151,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
         ],
     ),
     ("Test boxes", &["boxes"]),
+    ("Test whole scenes", &["rays"]),
     ("Hunt with a fuzzer", &["fuzz"]),
     ("Gate a CI", &["check", "merge", "diff"]),
     (
@@ -277,6 +281,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Chosen::Repair(arguments) => repair::run(&arguments),
         Chosen::Explain(arguments) => explain::run(&arguments),
         Chosen::Boxes(arguments) => boxes::run(&arguments),
+        Chosen::Rays(arguments) => rays::run(&arguments),
         Chosen::Map(arguments) => map::run(&arguments),
         Chosen::List(arguments) => list::run(&arguments),
         Chosen::Fuzz(arguments) => fuzz::run(&arguments),

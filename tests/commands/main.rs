@@ -39,6 +39,7 @@ mod plugin;
 mod program;
 mod prove;
 mod prove_domain;
+mod rays;
 #[cfg(unix)]
 mod relations;
 #[cfg(unix)]

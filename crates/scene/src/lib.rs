@@ -19,6 +19,7 @@
 
 // From the ground up: each block uses only those above it.
 mod bounds;
+mod distance;
 mod grid;
 mod mesh;
 mod ray;
@@ -46,9 +47,12 @@ mod scene;
 mod passage;
 mod values;
 
+mod judge;
+
 pub use bounds::Bounds;
 pub use closed::Closed;
 pub use define::{DefinedHit, define, nearest_of};
+pub use judge::{Answer, Judged, Judgement, VISIBLE};
 pub use mesh::{MeshError, Triangle, triangles};
 pub use passage::{Location, Passage};
 pub use ray::{InvalidRay, Ray};

@@ -5,6 +5,7 @@ mod solids;
 
 mod definition;
 mod extremes;
+mod judge;
 mod laws;
 mod passages;
 mod reports;

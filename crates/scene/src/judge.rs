@@ -1,0 +1,175 @@
+//! The nearest hit that another program answered, beside the truth.
+
+use crate::bounds::Bounds;
+use crate::distance::{distance_to, longest_edge};
+use crate::ray::{InvalidRay, Ray};
+use crate::scene::{Nearest, Scene};
+use glam::DVec3;
+use hairline_core::Float;
+
+/// A t that is off by more than this share of the face's longest edge is wrong: the point lies visibly elsewhere.
+pub const VISIBLE: f64 = 1e-3;
+
+/// Bounds of t that are nearer to each other, in longest edges, tell how far an answer is off.
+const TELLING: f64 = 1e-9;
+
+/// The nearest hit as a program answered it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// The face, by number; none for a miss.
+    pub face: Option<u32>,
+    /// Its t, if the program gives one.
+    pub t: Option<f64>,
+}
+
+/// The judgement of an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Judgement {
+    /// The one nearest face, or a miss where there is no hit.
+    Right,
+    /// One of several nearest faces: each of them is right.
+    Tie,
+    /// The right face with a t that is off by more than [`VISIBLE`], or that is no number.
+    WrongT,
+    /// A miss where there is a hit.
+    Lost,
+    /// A face that the ray meets behind the nearest one.
+    Farther,
+    /// A face that the ray misses by a hair: the exact point is nearer to it than [`VISIBLE`] of the nearest face's longest
+    /// edge, and t is right where it is given. Another face, and nothing that anybody sees.
+    Neighbour,
+    /// A face that the ray does not meet, elsewhere.
+    Ghost,
+}
+
+impl Judgement {
+    /// True if it may be seen: the ray is lost, or hits elsewhere.
+    pub fn is_wrong(self) -> bool {
+        match self {
+            Judgement::Right | Judgement::Tie | Judgement::Neighbour => false,
+            Judgement::WrongT | Judgement::Lost | Judgement::Farther | Judgement::Ghost => true,
+        }
+    }
+}
+
+/// An answer with its judgement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// The judgement.
+    pub judgement: Judgement,
+    /// The truth.
+    pub nearest: Option<Nearest>,
+    /// How far the answered point lies behind the exact one, in longest edges of the nearest face: by its t, or of a farther
+    /// face by that face's exact t. None without such a number, and where it is beyond the range of `f64`.
+    pub behind: Option<f64>,
+}
+
+impl<F: Float> Scene<F> {
+    /// Judges an answer to a ray. An error if the ray means nothing.
+    pub fn judge(&self, ray: &Ray<F>, answer: &Answer) -> Result<Judged, InvalidRay> {
+        let Some(nearest) = self.nearest(ray)? else {
+            let judgement = match answer.face {
+                None => Judgement::Right,
+                Some(_) => Judgement::Ghost,
+            };
+            return Ok(Judged {
+                judgement,
+                nearest: None,
+                behind: None,
+            });
+        };
+        let (judgement, behind) = match answer.face {
+            None => (Judgement::Lost, None),
+            Some(face) if nearest.faces.contains(&face) => {
+                self.of_nearest(ray, &nearest, answer)?
+            }
+            Some(face) => match self.values(ray, face)? {
+                None => self.of_unmet(ray, &nearest, face, answer.t)?,
+                Some(values) => {
+                    let behind = self.behind(ray, &nearest, values.t[0])?;
+                    (Judgement::Farther, behind)
+                }
+            },
+        };
+        Ok(Judged {
+            judgement,
+            nearest: Some(nearest),
+            behind,
+        })
+    }
+
+    /// Judges an answer with one of the nearest faces: by its t.
+    fn of_nearest(
+        &self,
+        ray: &Ray<F>,
+        nearest: &Nearest,
+        answer: &Answer,
+    ) -> Result<(Judgement, Option<f64>), InvalidRay> {
+        let right = match nearest.faces.len() {
+            1 => Judgement::Right,
+            _ => Judgement::Tie,
+        };
+        let Some(t) = answer.t else {
+            return Ok((right, None));
+        };
+        if t.is_nan() {
+            return Ok((Judgement::WrongT, None));
+        }
+        let behind = self.behind(ray, nearest, t)?;
+        let is_visible = behind.is_some_and(|behind| VISIBLE < behind.abs());
+        Ok(match is_visible {
+            true => (Judgement::WrongT, behind),
+            false => (right, behind),
+        })
+    }
+
+    /// Judges an answer with a face that the ray does not meet.
+    fn of_unmet(
+        &self,
+        ray: &Ray<F>,
+        nearest: &Nearest,
+        face: u32,
+        t: Option<f64>,
+    ) -> Result<(Judgement, Option<f64>), InvalidRay> {
+        let behind = match t {
+            Some(t) => self.behind(ray, nearest, t)?,
+            None => None,
+        };
+        let is_elsewhere = t.is_some() && behind.is_none_or(|behind| VISIBLE < behind.abs());
+        let Some(place) = self.place_of(face).filter(|_| !is_elsewhere) else {
+            return Ok((Judgement::Ghost, behind));
+        };
+        let exact = self.values(ray, nearest.faces[0])?;
+        let edge = self.longest_edge(nearest);
+        let is_beside = exact.is_some_and(|exact| {
+            let distance = distance_to(&self.triangle_at(place), exact.points[0]);
+            distance <= VISIBLE * edge
+        });
+        Ok(match is_beside {
+            true => (Judgement::Neighbour, behind),
+            false => (Judgement::Ghost, behind),
+        })
+    }
+
+    fn longest_edge(&self, nearest: &Nearest) -> f64 {
+        let place = self.place_of(nearest.faces[0]);
+        let place = place.expect("a face that is met is finite");
+        longest_edge(&self.triangle_at(place))
+    }
+
+    /// How far the point at t lies behind the nearest one, in longest edges of the nearest face; none if that is no number.
+    fn behind(&self, ray: &Ray<F>, nearest: &Nearest, t: f64) -> Result<Option<f64>, InvalidRay> {
+        let length = DVec3::from(ray.direction.map(F::to_f64)).length();
+        let edges = length / self.longest_edge(nearest);
+        let Bounds { lower, upper } = nearest.t;
+        let behind = match (upper - lower) * edges <= TELLING {
+            true => (t - lower.midpoint(upper)) * edges,
+            // The bounds are too wide to say it.
+            false => match self.values(ray, nearest.faces[0])? {
+                Some(exact) => (t - exact.t[0]) * edges,
+                None => return Ok(None),
+            },
+        };
+        Ok(Some(behind).filter(|behind| behind.is_finite()))
+    }
+}

@@ -1,0 +1,65 @@
+//! Answers of other programs, judged.
+
+use hairline_scene::{Answer, Judgement, Ray, Scene};
+
+/// Two parallel squares of two faces each: z = 0 with the diagonal from (0, 0) to (1, 1), and z = -2.
+fn squares() -> Scene<f64> {
+    let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let vertices = [square(0.0), square(-2.0)].concat();
+    Scene::new(&vertices, &[[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]).unwrap()
+}
+
+fn judged(ray: &Ray<f64>, face: Option<u32>, t: Option<f64>) -> (Judgement, Option<f64>) {
+    let judged = squares().judge(ray, &Answer { face, t }).unwrap();
+    (judged.judgement, judged.behind)
+}
+
+#[test]
+fn each_kind_of_answer_has_its_judgement() {
+    // Through face 0 at t = 0.5, and face 2 at t = 1.5.
+    let ray = Ray::new([0.75, 0.25, 1.0], [0.0, 0.0, -2.0]);
+    let longest = 2f64.sqrt();
+    assert_eq!(judged(&ray, Some(0), None), (Judgement::Right, None));
+    assert_eq!(
+        judged(&ray, Some(0), Some(0.5)),
+        (Judgement::Right, Some(0.0))
+    );
+    let late = judged(&ray, Some(0), Some(0.6));
+    assert_eq!(late.0, Judgement::WrongT);
+    assert!((late.1.unwrap() - 0.2 / longest).abs() < 1e-15);
+    assert_eq!(
+        judged(&ray, Some(0), Some(f64::NAN)),
+        (Judgement::WrongT, None)
+    );
+    assert_eq!(judged(&ray, None, None), (Judgement::Lost, None));
+    let farther = judged(&ray, Some(2), Some(1.5));
+    assert_eq!(farther, (Judgement::Farther, Some(2.0 / longest)));
+    // Beside the ray, and no face at all.
+    assert_eq!(judged(&ray, Some(1), Some(0.5)).0, Judgement::Ghost);
+    assert_eq!(judged(&ray, Some(9), None).0, Judgement::Ghost);
+    let past = ray.on(2.0, 3.0);
+    assert_eq!(judged(&past, None, None).0, Judgement::Right);
+    assert_eq!(judged(&past, Some(0), Some(0.5)).0, Judgement::Ghost);
+}
+
+#[test]
+fn each_face_of_a_tie_is_right() {
+    let diagonal = Ray::new([0.25, 0.25, 1.0], [0.0, 0.0, -1.0]);
+    for face in [0, 1] {
+        assert_eq!(judged(&diagonal, Some(face), Some(1.0)).0, Judgement::Tie);
+    }
+    assert_eq!(judged(&diagonal, Some(3), Some(3.0)).0, Judgement::Farther);
+}
+
+#[test]
+fn a_face_beside_the_ray_is_a_neighbour_where_the_point_is_right() {
+    // A hair beside the diagonal, in face 0.
+    let ray = Ray::new([0.25 + 1e-6, 0.25, 1.0], [0.0, 0.0, -1.0]);
+    assert_eq!(judged(&ray, Some(0), None).0, Judgement::Right);
+    assert_eq!(judged(&ray, Some(1), None).0, Judgement::Neighbour);
+    assert_eq!(judged(&ray, Some(1), Some(1.0001)).0, Judgement::Neighbour);
+    assert_eq!(judged(&ray, Some(1), Some(1.1)).0, Judgement::Ghost);
+    // The same face a tenth away.
+    let aside = Ray::new([0.35, 0.25, 1.0], [0.0, 0.0, -1.0]);
+    assert_eq!(judged(&aside, Some(1), None).0, Judgement::Ghost);
+}

@@ -1,0 +1,96 @@
+//! `hairline rays`: what rays really meet in a mesh, and what another program should have answered.
+
+mod found;
+mod judged;
+mod one;
+mod points;
+mod read;
+
+use super::before::set_threads;
+use super::exit::{Failure, Status};
+use super::flags::find_scalar;
+use super::input::read_mesh;
+use super::output::OutputArguments;
+use crate::arith::ScalarName;
+use crate::files::InputError;
+use crate::files::mesh::Mesh;
+use crate::kernel::Scalar;
+use clap::Args;
+use hairline_scene::Scene;
+
+/// Which mesh, which rays, whose answers.
+#[derive(Args)]
+pub struct RaysArguments {
+    /// The mesh: an OBJ, PLY, STL or glTF file (.gltf or .glb); - is standard input
+    #[arg(value_name = "MESH")]
+    mesh: String,
+
+    /// The rays, one a line: origin and direction as six numbers, or eight with t_min and t_max; or JSON with the fields
+    /// origin, direction, t_min and t_max
+    #[arg(value_name = "RAYS")]
+    rays: Option<String>,
+
+    /// One ray instead, as "ox,oy,oz dx,dy,dz" or with t_min,t_max behind: everything about it
+    #[arg(long, value_name = "RAY", conflicts_with_all = ["rays", "answers", "points"], allow_hyphen_values = true)]
+    ray: Option<String>,
+
+    /// The nearest hits that a program answered, one a line in the order of the rays: the face's number from 0 (-1 for a
+    /// miss), and its t if there is one; or JSON with the fields face and t
+    #[arg(long, value_name = "FILE", requires = "rays")]
+    answers: Option<String>,
+
+    /// Points instead of rays, three numbers a line: inside, outside or on the surface
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["rays", "answers"])]
+    points: Option<String>,
+
+    /// f32 or f64: what the numbers of mesh and rays are rounded to first
+    #[arg(long, value_name = "SCALAR", default_value = "f64")]
+    scalar: String,
+
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Runs the command.
+pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
+    set_threads(arguments.threads)?;
+    match find_scalar(&arguments.scalar)? {
+        ScalarName::F32 => run_in::<f32>(arguments),
+        ScalarName::F64 => run_in::<f64>(arguments),
+    }
+}
+
+fn run_in<F: Scalar>(arguments: &RaysArguments) -> Result<Status, Failure> {
+    let is_all_there = [&arguments.rays, &arguments.ray, &arguments.points];
+    if is_all_there.iter().all(|given| given.is_none()) {
+        return Err(Failure::usage(
+            "which rays? Give a file of them, or one as --ray \"0,0,5 0,0,-1\"; --points FILE asks if points are inside",
+        ));
+    }
+    let mesh = read_mesh(&arguments.mesh, arguments.output.quiet)?;
+    let scene = scene::<F>(&mesh)?;
+    if let Some(text) = &arguments.ray {
+        return one::run(arguments, &mesh, &scene, read::ray_of_words::<F>(text)?);
+    }
+    if let Some(file) = &arguments.points {
+        return points::run(arguments, &scene, &read::points::<F>(file)?);
+    }
+    let file = arguments.rays.as_deref().unwrap_or_default();
+    let rays = read::rays::<F>(file)?;
+    match &arguments.answers {
+        Some(answers) => judged::run(arguments, &mesh, &scene, &rays, answers),
+        None => found::run(arguments, &scene, &rays),
+    }
+}
+
+/// The triangles of a mesh as a scene.
+fn scene<F: Scalar>(mesh: &Mesh) -> Result<Scene<F>, Failure> {
+    let count = mesh.positions_f64.len() as u32;
+    let vertices: Vec<[F; 3]> = (0..count).map(|vertex| mesh.position(vertex)).collect();
+    Scene::new(&vertices, &mesh.triangles)
+        .map_err(|error| InputError::of(&mesh.name, error.to_string()).into())
+}

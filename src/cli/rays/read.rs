@@ -1,0 +1,185 @@
+//! Rays, points and answers in files of other people.
+
+use crate::cli::exit::Failure;
+use crate::cli::input::open;
+use crate::files::InputError;
+use crate::files::json::Object;
+use crate::files::text_lines::TextLines;
+use crate::files::{json, number};
+use crate::kernel::Scalar;
+use hairline_scene::{Answer, Ray};
+use std::io::BufReader;
+
+/// The most bytes of a line.
+const LONGEST_LINE: usize = 1 << 16;
+
+/// What programs write for no face: a signed and an unsigned -1.
+const NO_FACE: [&str; 6] = ["-1", "4294967295", "none", "null", "miss", ""];
+
+/// The form of a ray, for messages.
+const RAY: &str = "origin and direction as six numbers, or eight with t_min and t_max";
+
+/// The rays of a file. An error names the line and what is wrong in it.
+pub(super) fn rays<F: Scalar>(file: &str) -> Result<Vec<Ray<F>>, Failure> {
+    let read = |line: &str| match line.starts_with('{') {
+        true => ray_of_json(line),
+        false => ray_of_numbers(&words(line)),
+    };
+    lines(file, "rays", read)
+}
+
+/// The points of a file.
+pub(super) fn points<F: Scalar>(file: &str) -> Result<Vec<[F; 3]>, Failure> {
+    let read = |line: &str| {
+        let numbers = numbers(&words(line))?;
+        let count = numbers.len();
+        <[F; 3]>::try_from(numbers)
+            .map_err(|_| format!("expected three numbers of a point, found {count}"))
+    };
+    lines(file, "points", read)
+}
+
+/// The answers of a file, one for each of so many rays.
+pub(super) fn answers(file: &str, rays: usize) -> Result<Vec<Answer>, Failure> {
+    let read = |line: &str| match line.starts_with('{') {
+        true => answer_of_json(line),
+        false => answer_of_words(&words(line)),
+    };
+    let answers = lines(file, "answers", read)?;
+    if answers.len() != rays {
+        let message = format!(
+            "{} answers to {rays} rays: expected one a line, in the order of the rays",
+            answers.len()
+        );
+        return Err(InputError::of(file, message).into());
+    }
+    Ok(answers)
+}
+
+/// A ray as words of a command line: `0,0,5 0,0,-1`.
+pub(super) fn ray_of_words<F: Scalar>(text: &str) -> Result<Ray<F>, Failure> {
+    ray_of_numbers(&words(text)).map_err(|message| Failure::usage(format!("--ray: {message}")))
+}
+
+/// One thing a line. A first line of names alone, and lines that begin with #, are skipped.
+fn lines<T>(
+    file: &str,
+    what: &str,
+    read: impl Fn(&str) -> Result<T, String>,
+) -> Result<Vec<T>, Failure> {
+    let mut all = Vec::new();
+    let reader = BufReader::new(open(file)?);
+    for line in TextLines::new(reader, file, LONGEST_LINE) {
+        let (number, text) = line?;
+        let text = text.trim();
+        let is_head = number == 1 && text.starts_with(|c: char| c.is_ascii_alphabetic());
+        let is_word = NO_FACE.contains(&text);
+        if text.starts_with('#') || is_head && !is_word {
+            continue;
+        }
+        let one = read(text).map_err(|message| InputError::at(file, number, message))?;
+        all.push(one);
+    }
+    if all.is_empty() {
+        return Err(InputError::of(file, format!("there are no {what} in it")).into());
+    }
+    Ok(all)
+}
+
+/// The words between commas, semicolons and spaces; between two commas may be none.
+fn words(line: &str) -> Vec<&str> {
+    match line.contains([',', ';']) {
+        true => {
+            let parts = line.split([',', ';']);
+            parts.flat_map(spaced).collect()
+        }
+        false => line.split_whitespace().collect(),
+    }
+}
+
+fn spaced(part: &str) -> Vec<&str> {
+    let words: Vec<&str> = part.split_whitespace().collect();
+    match words.is_empty() {
+        true => vec![""],
+        false => words,
+    }
+}
+
+fn numbers<F: Scalar>(words: &[&str]) -> Result<Vec<F>, String> {
+    words.iter().map(|word| number::parse(word)).collect()
+}
+
+fn ray_of_numbers<F: Scalar>(words: &[&str]) -> Result<Ray<F>, String> {
+    let numbers = numbers::<F>(words)?;
+    let (&[ox, oy, oz, dx, dy, dz], interval) = numbers
+        .split_first_chunk()
+        .ok_or_else(|| format!("expected {RAY}, found {}", numbers.len()))?;
+    let ray = Ray::new([ox, oy, oz], [dx, dy, dz]);
+    match interval {
+        [] => Ok(ray),
+        [t_min, t_max] => Ok(ray.on(*t_min, *t_max)),
+        _ => Err(format!("expected {RAY}, found {}", numbers.len())),
+    }
+}
+
+fn ray_of_json<F: Scalar>(line: &str) -> Result<Ray<F>, String> {
+    let object = Object::parse(line, &["origin", "direction", "t_min", "t_max"])?;
+    let vector = |field: &str| -> Result<[F; 3], String> {
+        let [x, y, z] = json::array(object.required(field)?, "numbers")?;
+        Ok([json_number(x)?, json_number(y)?, json_number(z)?])
+    };
+    let ray = Ray::new(vector("origin")?, vector("direction")?);
+    let t_min = object.read("t_min", json_number)?.unwrap_or(ray.t_min);
+    let t_max = object.read("t_max", json_number)?.unwrap_or(ray.t_max);
+    Ok(ray.on(t_min, t_max))
+}
+
+/// A JSON number, or a string that is one: JSON has no infinity.
+fn json_number<F: Scalar>(text: &str) -> Result<F, String> {
+    match text.starts_with('"') {
+        true => number::parse(&json::string(text)?),
+        false => number::parse(text),
+    }
+}
+
+fn answer_of_words(words: &[&str]) -> Result<Answer, String> {
+    let (face, t) = match words {
+        [face] => (*face, None),
+        [face, t] => (*face, Some(*t)),
+        _ => {
+            return Err(format!(
+                "expected a face and its t, as 12,0.5, found {} words",
+                words.len()
+            ));
+        }
+    };
+    answer(face, t)
+}
+
+fn answer_of_json(line: &str) -> Result<Answer, String> {
+    let object = Object::parse(line, &["face", "t"])?;
+    answer(
+        object.get("face").unwrap_or("null"),
+        object.get("t").filter(|t| *t != "null"),
+    )
+}
+
+fn answer(face: &str, t: Option<&str>) -> Result<Answer, String> {
+    if NO_FACE.contains(&face) {
+        return Ok(Answer {
+            face: None,
+            t: None,
+        });
+    }
+    let face = face.parse().map_err(|_| {
+        format!(
+            "expected a face's number from 0, or -1 for a miss, found {}",
+            json::quoted(face)
+        )
+    })?;
+    let t = t.filter(|t| !t.is_empty()).map(json_number).transpose()?;
+    Ok(Answer {
+        face: Some(face),
+        t,
+    })
+}

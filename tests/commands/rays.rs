@@ -1,0 +1,194 @@
+//! `hairline rays`: rays, points and answers of other programs at a whole mesh.
+
+use crate::program::{ends, flat, scratch};
+use std::fs;
+use std::path::PathBuf;
+
+/// A tetrahedron with corners at the origin and at 1 on each axis, wound to the outside.
+const TETRAHEDRON: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+/// Through the long face and the one below; down the axis z, along an edge; past it.
+const RAYS: &str =
+    "0.125,0.125,5,0,0,-1\n0 0 5 0 0 -1\n{\"origin\":[5,5,5],\"direction\":[1,0,0]}\n";
+
+fn folder(name: &str) -> PathBuf {
+    let folder = scratch(name);
+    fs::write(folder.join("t.obj"), TETRAHEDRON).unwrap();
+    fs::write(folder.join("r.csv"), RAYS).unwrap();
+    folder
+}
+
+#[test]
+fn one_ray_is_told_in_order() {
+    let folder = folder("rays-one");
+    let told = |ray: &str| ends(&folder, &["rays", "t.obj", "-q", "--ray", ray], 0).0;
+    let through = told("0.125,0.125,5 0,0,-1");
+    assert!(
+        through.starts_with("The nearest hit is face 3, at t = 4.25\n"),
+        "{through}"
+    );
+    let words = flat(&through);
+    assert!(words.contains("point 0.125, 0.125, 0.75 "), "{through}");
+    assert!(
+        words.contains(" 4.25 3 crosses 0 to 1 5.0 0 crosses 1 to 0 "),
+        "{through}"
+    );
+    let along = flat(&told("0,0,5 0,0,-1"));
+    assert!(
+        along.starts_with(
+            "The nearest hit is at t = 4.0, on faces 1, 2, 3: each is a right answer "
+        ),
+        "{along}"
+    );
+    assert!(
+        along.contains(" 4.0 to 5.0 0 1 2 3 runs in the surface, and comes back 0 to 0 "),
+        "{along}"
+    );
+    assert!(told("5,5,5 1,0,0").starts_with("The ray meets no face\n"));
+    // On an interval that ends before it.
+    assert!(told("0.125,0.125,5 0,0,-1 0,4").starts_with("The ray meets no face\n"));
+    // The command is of the face, and runs.
+    let command = through.split('\'').nth(1).unwrap();
+    let (shown, _) = ends(&folder, &["explain", command, "-k", "moller-trumbore"], 0);
+    assert!(
+        shown.starts_with("moller-trumbore (source): hit; "),
+        "{shown}"
+    );
+}
+
+#[test]
+fn a_file_of_rays_has_a_line_each() {
+    let folder = folder("rays-file");
+    let (csv, _) = ends(
+        &folder,
+        &["rays", "t.obj", "r.csv", "-q", "--format", "csv"],
+        0,
+    );
+    assert_eq!(
+        csv,
+        "faces,t,meetings,met\n3,4.25,2,2\n1 2 3,4.0,1,4\n,,0,0\n"
+    );
+    let (screen, _) = ends(&folder, &["rays", "t.obj", "r.csv", "-q"], 0);
+    assert!(screen.starts_with("2 of 3 rays hit the mesh\n"), "{screen}");
+    let written = ["rays", "t.obj", "r.csv", "-q", "-o", "r.json"];
+    ends(&folder, &written, 0);
+    let json: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(folder.join("r.json")).unwrap()).unwrap();
+    assert_eq!(json["rays"][1]["faces"], serde_json::json!([1, 2, 3]));
+}
+
+#[test]
+fn answers_are_judged_by_kind() {
+    let folder = folder("rays-answers");
+    let judged = |answers: &str, code: i32| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+        flat(&ends(&folder, &words, code).0)
+    };
+    // Any face of a tie; heads, comments and each word for a miss.
+    for right in [
+        "face,t\n3,4.25\n2,4\n-1,\n",
+        "# mine\n3\n1\n4294967295\n",
+        "{\"face\":3,\"t\":4.25}\n{\"face\":3,\"t\":4}\n{\"face\":null,\"t\":null}\n",
+    ] {
+        let said = judged(right, 0);
+        assert!(
+            said.starts_with("None of 3 answers is wrong No hit is lost. "),
+            "{said}"
+        );
+    }
+    let wrong = judged("0,5\nnone\n2,1\n", 1);
+    assert!(wrong.starts_with("3 of 3 answers are wrong "), "{wrong}");
+    for kind in [
+        " lost 1 - - ",
+        " farther face 1 0.530 0.530 ",
+        " ghost 1 - - ",
+    ] {
+        assert!(wrong.contains(kind), "{kind}: {wrong}");
+    }
+    assert!(
+        wrong.contains("ray 0: face 0, 0.530 longest edges behind; the nearest is face 3"),
+        "{wrong}"
+    );
+    let late = judged("3,4.5\n1,4\n-1\n", 1);
+    assert!(late.contains(" wrong t 1 0.177 0.177 "), "{late}");
+}
+
+#[test]
+fn points_are_inside_outside_or_on_it() {
+    let folder = folder("rays-points");
+    fs::write(folder.join("p.csv"), "0.125 0.125 0.125\n1,1,1\n0,0,0.5\n").unwrap();
+    let points = ["rays", "t.obj", "-q", "--points", "p.csv"];
+    let (screen, _) = ends(&folder, &points, 0);
+    assert!(
+        screen.starts_with("Of 3 points: 1 inside, 1 outside, 1 on the surface\n"),
+        "{screen}"
+    );
+    let (csv, _) = ends(&folder, &[&points[..], &["--format", "csv"]].concat(), 0);
+    assert_eq!(csv, "place,winding,faces\ninside,1,\noutside,0,\non,,1 2\n");
+    // Without a face the surface is open.
+    let open = TETRAHEDRON.trim_end().rsplit_once('\n').unwrap().0;
+    fs::write(folder.join("t.obj"), open).unwrap();
+    let (screen, _) = ends(&folder, &points, 0);
+    assert!(
+        flat(&screen).contains("the surface is open, at an edge of face "),
+        "{screen}"
+    );
+}
+
+#[test]
+fn bad_input_is_named_by_file_and_line() {
+    let folder = folder("rays-bad");
+    for (name, text) in [
+        ("short.csv", "ox,oy,oz,dx,dy,dz\n1,2,3\n"),
+        ("word.csv", "0,0,5,0,0,one\n"),
+        ("zero.csv", "0,0,5,0,0,0\n"),
+        ("empty.csv", "# nothing\n"),
+        ("field.csv", "{\"origin\":[0,0,5]}\n"),
+        ("two.csv", "3\n1\n"),
+        ("many.csv", "3,1,2\n1\n1\n"),
+    ] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    let cases: [(&[&str], i32, &str); 11] = [
+        (
+            &["short.csv"],
+            65,
+            "short.csv:2: expected origin and direction as six numbers",
+        ),
+        (&["word.csv"], 65, "word.csv:1: 'one' is not a number"),
+        (
+            &["zero.csv"],
+            65,
+            "zero.csv: ray 0, counted from 0: the ray's direction is zero",
+        ),
+        (&["empty.csv"], 65, "empty.csv: there are no rays in it"),
+        (&["field.csv"], 65, "field.csv:1: missing field 'direction'"),
+        (&["none.csv"], 74, "none.csv: No such file"),
+        (
+            &["r.csv", "--answers", "two.csv"],
+            65,
+            "two.csv: 2 answers to 3 rays",
+        ),
+        (
+            &["r.csv", "--answers", "many.csv"],
+            65,
+            "many.csv:1: expected a face and its t",
+        ),
+        (&[], 2, "which rays?"),
+        (&["--ray", "1,2"], 2, "--ray: expected origin and direction"),
+        (
+            &["--ray", "0,0,5 0,0,nan"],
+            2,
+            "--ray: the ray has a coordinate that is not finite",
+        ),
+    ];
+    for (words, code, message) in cases {
+        let (out, error) = ends(&folder, &[&["rays", "t.obj", "-q"], words].concat(), code);
+        assert!(
+            out.is_empty() && error.contains(message),
+            "{words:?}: {error}"
+        );
+    }
+}
