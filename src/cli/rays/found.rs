@@ -14,14 +14,14 @@ use serde::Serialize;
 /// How many rays a screen shows.
 const SHOWN: usize = 8;
 
-/// What each ray meets.
+/// The hits of all rays.
 #[derive(Serialize)]
 struct FoundHits {
     scalar: &'static str,
     rays: Vec<FoundHit>,
 }
 
-/// What a ray meets.
+/// The hits of a ray.
 #[derive(Serialize)]
 struct FoundHit {
     /// The nearest faces: several where it meets them at the same t.
@@ -76,7 +76,7 @@ pub(super) fn run<F: Scalar>(
     Ok(Status::Success)
 }
 
-/// What is found out about each ray, on all threads; an error names the first ray that means nothing.
+/// An answer about each ray, found on all threads; an error names the first ray that means nothing.
 pub(super) fn of_all<T: Send>(
     arguments: &RaysArguments,
     rays: usize,

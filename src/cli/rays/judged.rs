@@ -40,7 +40,7 @@ struct JudgedAnswers {
     counts: Vec<JudgementCount>,
     /// Rays whose nearest faces are others when mesh and rays are taken as f64, where f32 was asked for.
     other_in_f64: Option<u64>,
-    /// Of so many hits that the program lost, or that it answered with a wrong face, …
+    /// How many hits that the program lost, or answered with a wrong face, kernels were asked about.
     asked: u64,
     /// … a kernel alone misses every nearest face of so many.
     missed_by: Vec<KernelMisses>,
@@ -187,7 +187,7 @@ where
         }
     }
 
-    /// Of how many hits that were lost or answered with a wrong face kernels were asked, and how many each misses by itself:
+    /// How many hits that were lost or answered with a wrong face kernels were asked about, and how many each misses by itself:
     /// what it is most often to blame for first.
     fn kernels_that_miss(&self) -> (u64, Vec<KernelMisses>) {
         let is_lost = |judged: &(usize, &Judged)| {

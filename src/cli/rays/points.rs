@@ -1,4 +1,4 @@
-//! Whether points are inside a mesh.
+//! Points inside, outside or on a mesh.
 
 use super::RaysArguments;
 use crate::cli::exit::{Failure, Status};

@@ -13,7 +13,7 @@ use std::io::BufReader;
 /// The most bytes of a line.
 const LONGEST_LINE: usize = 1 << 16;
 
-/// What programs write for no face: a signed and an unsigned -1.
+/// The words of programs for no face: a signed and an unsigned -1.
 const NO_FACE: [&str; 6] = ["-1", "4294967295", "none", "null", "miss", ""];
 
 /// The form of a ray, for messages.

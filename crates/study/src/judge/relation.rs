@@ -88,7 +88,7 @@ pub enum Part {
     Start,
     /// Hit or miss, by the end of the interval.
     End,
-    /// Whether it says hit or miss at all.
+    /// A miss, and how it is told.
     Miss,
 }
 
