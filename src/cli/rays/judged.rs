@@ -42,7 +42,7 @@ struct JudgedAnswers {
     other_in_f64: Option<u64>,
     /// How many hits that the program lost, or answered with a wrong face, kernels were asked about.
     asked: u64,
-    /// … a kernel alone misses every nearest face of so many.
+    /// How many of these each kernel misses by itself, on every nearest face.
     missed_by: Vec<KernelMisses>,
     worst: Vec<WrongAnswer>,
 }

@@ -19,6 +19,7 @@ use crate::judge::{
     ALLOWANCE, Finding, Obligation, ValueErrors, asked, judge, polygon_obligation, polygon_truth,
 };
 use crate::kernel::{Gated, Gives, KernelIn, Scalar, Tunable, Verdict};
+use crate::map::sketch;
 use crate::oracle::{self, Definition};
 use crate::truth::{ExactValues, Feature, Truth};
 use num_traits::ToPrimitive;
@@ -37,6 +38,7 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
         instance: group
             .instance
             .map(|it| instance_part(it, [in_world, case], is_secondary, rows)),
+        sketch: sketch(case, only(rows)),
         ..of_case(case, is_secondary)
     };
     let triangles = cases.iter().zip(group.cases).map(triangle).collect();
@@ -58,6 +60,14 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
         scalar: F::NAME,
         triangles,
         together,
+    }
+}
+
+/// The row, if there is one only.
+fn only(rows: &[Row]) -> Option<&Row> {
+    match rows {
+        [row] => Some(row),
+        _ => None,
     }
 }
 
@@ -91,6 +101,7 @@ fn of_case<F: Scalar>(case: &Case<F>, is_secondary: bool) -> TrianglePart {
         },
         exact: nearest_doubles(&exact),
         inputs,
+        sketch: None,
         interval: [case.ray.t_min, case.ray.t_max].map(|t| [number(t), t.hex()]),
     }
 }

@@ -58,6 +58,9 @@ pub struct TrianglePart {
     /// The vectors in numbers and in bits, each with its name.
     #[serde(skip)]
     pub inputs: Vec<[String; 5]>,
+    /// The triangle in letters, with the exact point.
+    #[serde(skip)]
+    pub sketch: Option<String>,
     /// The least and the greatest t, each with its bits.
     #[serde(skip)]
     pub interval: [[String; 2]; 2],

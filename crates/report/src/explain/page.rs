@@ -215,6 +215,8 @@ fn of_triangle(
         terms.push(("t", format!("in [{t_min}, {t_max}] ({low} {high})")));
     }
     blocks.push(Block::terms(terms));
+    let sketch = triangle.sketch.as_ref().filter(|_| is_alone);
+    blocks.extend(sketch.cloned().map(Block::Listing));
     blocks.push(Block::Table(inputs(triangle, is_first)));
     blocks
 }

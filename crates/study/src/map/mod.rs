@@ -30,6 +30,7 @@ mod panel;
 #[cfg(feature = "pictures")]
 mod png;
 mod scene;
+mod sketch;
 mod spot;
 mod svg;
 
@@ -38,6 +39,7 @@ pub use self::grid::{Axis, Grid, MOST_PIXELS, PixelStep};
 pub use self::kernel::{CaseVector, case_at, grid_of_case, of_kernel};
 #[cfg(feature = "pictures")]
 pub use self::png::png;
+pub use self::sketch::sketch;
 pub use self::spot::{Spot, standard};
 pub use self::svg::{svg, svg_document};
 
