@@ -79,10 +79,10 @@ impl MaxError {
 
 /// The errors of what a kernel reports of a trial's first triangle, if that is a hit.
 pub fn errors_of<F: Float>(trial: &Trial<'_, F>) -> HitErrors {
-    let values = trial.values[0].as_ref();
-    values.map_or([None; Value::ALL.len()], |hit| {
-        hit_errors(&trial.cases[0], hit)
-    })
+    let none = [None; Value::ALL.len()];
+    trial
+        .first
+        .map_or(none, |(case, hit)| hit_errors(case, hit))
 }
 
 /// The errors of a hit on a triangle whose plane the line crosses.

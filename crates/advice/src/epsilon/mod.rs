@@ -48,6 +48,7 @@ pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
 pub use shared::SharedCases;
 pub use study::{
-    Elsewhere, SCALE_FREE, SceneStudy, cheapest, own_epsilons, study_scene, try_elsewhere,
+    Chosen, Elsewhere, SCALE_FREE, SceneStudy, cheapest, choose, own_epsilons, study_scene,
+    try_elsewhere, try_on_fresh,
 };
 pub use trials::{Pass, Setting, StudiedRays, Trial, fresh_seed};

@@ -10,13 +10,13 @@ use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, all_limits, between, limits, printed};
 use super::measure::{Attempt, OfHits, Ran, count_at, differs, measure};
 use super::picture::{HoleShare, holes};
-use super::prepared::Store;
+use super::prepared::{Prepared, Store};
 use super::proved::{ProvedValue, proved};
 use super::rays::Rays;
 use super::trials::{Pass, Setting};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
-use crate::case::{Case, Scene, SceneKind};
+use crate::case::{Scene, SceneKind};
 use crate::family::Stratum;
 use crate::kernel::Scalar;
 
@@ -57,8 +57,18 @@ pub struct Elsewhere {
 /// The name of epsilons that follow each case's size.
 pub const SCALE_FREE: &str = "scale-free";
 
-/// Runs a study, which also tries epsilons with names. The error is a disagreement between
-/// margins and the kernel's own run: a fault of this tool.
+/// The epsilons that the rays of a seed choose.
+pub struct Chosen<F> {
+    /// By knob: the cheapest together.
+    best: Vec<F>,
+    /// True if the errors of the hits that remain are as small as was wanted.
+    is_accurate: bool,
+    limits: Vec<KnobLimit<F>>,
+    /// The cheapest that follow each case's size, with their limits.
+    scale_free: Option<(Vec<F>, Vec<KnobLimit<F>>)>,
+}
+
+/// Runs a study: [`choose`], and [`try_on_fresh`].
 pub fn study_scene<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
@@ -66,6 +76,17 @@ pub fn study_scene<F: Scalar>(
     named: &[(String, Vec<F>)],
     pass: Pass<'_>,
 ) -> Result<SceneStudy<F>, String> {
+    let chosen = choose(setting, costs, max_error, pass);
+    try_on_fresh(setting, chosen, costs, max_error, named, pass)
+}
+
+/// Chooses epsilons on the rays of a seed.
+pub fn choose<F: Scalar>(
+    setting: &Setting<'_, F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    pass: Pass<'_>,
+) -> Chosen<F> {
     let store = Store::default();
     let setting = &Setting {
         store: Some(&store),
@@ -76,14 +97,46 @@ pub fn study_scene<F: Scalar>(
     let on_grid = accurate
         .or_else(|| cheapest(setting, costs, None, pass))
         .expect("without a limit of errors some point is the cheapest");
-    let (best, found) = within_limits(setting, on_grid, costs, max_error, pass);
+    let (best, limits) = within_limits(setting, on_grid, costs, max_error, pass);
     let following = &Setting {
         relative: true,
         ..*setting
     };
     let scale_free = cheapest(following, costs, max_error, pass)
         .map(|on_grid| within_limits(following, on_grid, costs, max_error, pass));
-    // The rays of this seed were passed over for the last time.
+    Chosen {
+        best,
+        is_accurate,
+        limits,
+        scale_free,
+    }
+}
+
+/// Tries the chosen epsilons, and others with names, on the rays of the next seed. The error is a disagreement between
+/// margins and the kernel's own run: a fault of this tool.
+pub fn try_on_fresh<F: Scalar>(
+    setting: &Setting<'_, F>,
+    chosen: Chosen<F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    named: &[(String, Vec<F>)],
+    pass: Pass<'_>,
+) -> Result<SceneStudy<F>, String> {
+    let Chosen {
+        best,
+        is_accurate,
+        limits: found,
+        scale_free,
+    } = chosen;
+    let store = Store::default();
+    let setting = &Setting {
+        store: Some(&store),
+        ..*setting
+    };
+    let following = &Setting {
+        relative: true,
+        ..*setting
+    };
     let fresh = pass.fresh();
     let vectors = with_other_names(&best, named);
     let epsilons: Vec<Vec<F>> = vectors.iter().map(|(_, all)| all.clone()).collect();
@@ -194,7 +247,7 @@ fn try_scale_free<F: Scalar>(
     fresh: Pass<'_>,
 ) -> Tried<F> {
     let attempt = [Attempt::new(epsilons.clone())];
-    let no_run = |_: &[Case<F>], _: &[KnobMargins<F>]| Ran::default();
+    let no_run = |_: &Prepared<F>, _: &[KnobMargins<F>]| Ran::default();
     let sums = measure(following, &attempt, 1, max_error, fresh, no_run);
     let vector = vec![(SCALE_FREE.to_owned(), epsilons)];
     all_tried(following, costs, vector, sums.trials, sums.of_hits, fresh).remove(0)
@@ -289,33 +342,31 @@ fn cheapest_of<F: Scalar>(
     joint.best(setting.counts, costs)
 }
 
-/// Tries the recommended epsilons and the proved values in other scenes. A value that is wrong there is taken out of what
+/// Tries the recommended epsilons and the proved values in another scene. A value that is wrong there is taken out of what
 /// is proved: its proof is about the scene's own kind of plane.
 pub fn try_elsewhere<F: Scalar>(
     setting: &Setting<'_, F>,
     study: &mut SceneStudy<F>,
-    scenes: &[Scene],
+    scene: &Scene,
     pass: Pass<'_>,
 ) {
-    for scene in scenes {
-        let mut attempts = vec![Attempt::new(study.best.clone())];
-        for found in &study.proved {
-            attempts.push(Attempt::at_proof(&found.bound, &study.best));
-        }
-        let setting = Setting {
-            scene: Some(scene),
-            store: None,
-            ..*setting
-        };
-        let mut wrong = count_at(&setting, &attempts, pass.fresh()).into_iter();
-        let of_best = wrong.next().expect("one attempt at least");
-        study.elsewhere.push(Elsewhere {
-            kind: scene.kind(),
-            wrong: of_best,
-        });
-        study.proved.retain(|found| {
-            let wrong = wrong.next().expect("an attempt for each proof");
-            wrong[found.bound.count].count == 0
-        });
+    let mut attempts = vec![Attempt::new(study.best.clone())];
+    for found in &study.proved {
+        attempts.push(Attempt::at_proof(&found.bound, &study.best));
     }
+    let setting = Setting {
+        scene: Some(scene),
+        store: None,
+        ..*setting
+    };
+    let mut wrong = count_at(&setting, &attempts, pass.fresh()).into_iter();
+    let of_best = wrong.next().expect("one attempt at least");
+    study.elsewhere.push(Elsewhere {
+        kind: scene.kind(),
+        wrong: of_best,
+    });
+    study.proved.retain(|found| {
+        let wrong = wrong.next().expect("an attempt for each proof");
+        wrong[found.bound.count].count == 0
+    });
 }

@@ -3,8 +3,8 @@
 use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
 use super::prepared::{Prepared, PreparedTrial, Store};
 use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
-use super::relative::{relative, scale};
-use super::shared::{SharedCases, made};
+use super::relative::{CaseSizes, relative};
+use super::shared::{MadeCases, SharedCases};
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, Stock};
 use crate::case::{Case, Parameters, Scene};
@@ -106,10 +106,8 @@ pub struct Trial<'a, F: Float> {
     pub margins: &'a [KnobMargins<F>],
     /// How many of the triangles are around the group and not of it.
     pub around: usize,
-    /// The triangles with their ray.
-    pub cases: &'a [Case<F>],
-    /// The values that a hit of each triangle would report.
-    pub values: &'a [Option<Hit<F>>],
+    /// The first triangle with its ray, and the values that its hit would report.
+    pub first: Option<(&'a Case<F>, &'a Hit<F>)>,
 }
 
 impl<F: Float> Trial<'_, F> {
@@ -153,13 +151,13 @@ impl<F: Scalar> Setting<'_, F> {
         self.sum_with(pass, empty, add, |_, _, _| {})
     }
 
-    /// The same; `look` also sees each chunk's cases with their margins, those that are no trials included.
-    pub fn sum_with<S: Merge>(
+    /// The same; `look` also sees each chunk with all its margins, those that are of no trial included.
+    pub(super) fn sum_with<S: Merge>(
         &self,
         pass: Pass<'_>,
         empty: impl Fn() -> S + Sync,
         add: impl Fn(&mut S, Trial<'_, F>) + Sync,
-        look: impl Fn(&mut S, &[Case<F>], &[KnobMargins<F>]) + Sync,
+        look: impl Fn(&mut S, &Prepared<F>, &[KnobMargins<F>]) + Sync,
     ) -> S {
         let mut total = empty();
         let mut all: Vec<Rays> = self.counts.iter().map(|count| count.rays).collect();
@@ -173,37 +171,21 @@ impl<F: Scalar> Setting<'_, F> {
                         Some(store) => store.part(pass.seed, place, make),
                         None => Arc::new(make()),
                     };
-                    let Prepared {
-                        cases,
-                        margins,
-                        relative,
-                        values,
-                        trials,
-                    } = &*part;
                     let margins = match self.relative {
-                        true => relative.get_or_init(|| self.relative_margins(cases, margins)),
-                        false => margins,
+                        true => part.relative.get_or_init(|| self.all_relative(&part)),
+                        false => &part.margins,
                     };
-                    look(sums, cases, margins);
-                    for trial in trials {
-                        let PreparedTrial {
-                            count,
-                            guards,
-                            around,
-                            cases: range,
-                        } = trial;
-                        let (count, guards, around) = (*count, *guards, *around);
-                        let (margins, cases) = (&margins[range.clone()], &cases[range.clone()]);
-                        let values = &values[range.clone()];
+                    look(sums, &part, margins);
+                    for trial in &part.trials {
+                        let value = part.values.get(trial.first).and_then(Option::as_ref);
                         add(
                             sums,
                             Trial {
-                                count,
-                                guards,
-                                margins,
-                                around,
-                                cases,
-                                values,
+                                count: trial.count,
+                                guards: trial.guards,
+                                margins: &margins[trial.margins.clone()],
+                                around: trial.around,
+                                first: value.map(|hit| (part.made.case(trial.first), hit)),
                             },
                         );
                     }
@@ -282,29 +264,29 @@ impl<F: Scalar> Setting<'_, F> {
 
     /// The cases of some indices, their margins, and the trials among them.
     fn prepare(&self, source: &Source, rays: Rays, indices: Range<u64>) -> Prepared<F> {
-        let chunk = match self.shared {
-            Some(shared) => shared.chunk(source, indices),
-            None => Arc::new(made(source, indices)),
+        let made = match self.shared {
+            Some(shared) => shared.part(source, indices),
+            None => Arc::new(MadeCases::new(source, indices)),
         };
-        let (margins, values) = self.margins(&chunk.cases);
-        let trials = self.trials(&chunk, rays);
-        let crossings = self.crossings(source, &chunk, rays);
-        let cases = match Arc::try_unwrap(chunk) {
-            Ok(chunk) => chunk.cases,
-            Err(shared) => shared.cases.clone(),
-        };
+        let (margins, mut values) = self.margins(&made.chunk.cases);
+        if self.place(rays, WrongKind::Miss).is_none() {
+            // They are asked of hits that can be lost.
+            values = Vec::new();
+        }
+        let trials = self.trials(&made.chunk, rays);
         let mut prepared = Prepared {
-            cases,
+            made,
             margins,
+            others: Vec::new(),
             relative: OnceLock::new(),
             values,
             trials,
         };
-        self.add_crossings(crossings, &mut prepared);
+        self.add_crossings(rays, &mut prepared);
         let Prepared {
             margins, trials, ..
         } = &mut prepared;
-        trials.retain(|trial| !margins[trial.cases.clone()].iter().any(is_unknown));
+        trials.retain(|trial| !margins[trial.margins.clone()].iter().any(is_unknown));
         prepared
     }
 
@@ -347,11 +329,11 @@ impl<F: Scalar> Setting<'_, F> {
                 Obligation::MustMiss => hits,
                 Obligation::Free => None,
             };
-            let cases = i..i + 1;
             trials.extend(count.map(|count| PreparedTrial {
                 count,
                 guards,
-                cases,
+                first: i,
+                margins: i..i + 1,
                 around: 0,
             }));
         }
@@ -395,14 +377,32 @@ impl<F: Scalar> Setting<'_, F> {
         cases: &[Case<F>],
         margins: &[KnobMargins<F>],
     ) -> Vec<KnobMargins<F>> {
-        let mut all = margins.to_vec();
-        for (k, knob) in self.knobs.iter().enumerate() {
+        let mut all = Vec::with_capacity(margins.len());
+        for (case, margins) in cases.iter().zip(margins) {
+            all.push(self.relative_to(CaseSizes::of(case), margins));
+        }
+        all
+    }
+
+    /// The margins of one case as multiples of its own sizes.
+    pub(super) fn relative_to(&self, sizes: CaseSizes, margins: &KnobMargins<F>) -> KnobMargins<F> {
+        let mut own = *margins;
+        for (margin, knob) in own.iter_mut().zip(self.knobs) {
             let dimension = knob.gate(self.row.entry.info.gates).dimension;
-            if dimension.has_unit() {
-                for (margins, case) in all.iter_mut().zip(cases) {
-                    margins[k] = relative(margins[k], scale(case, dimension));
-                }
+            if dimension.has_unit() && margin.is_finite() {
+                *margin = relative(*margin, sizes.unit(dimension));
             }
+        }
+        own
+    }
+
+    /// All margins of a part as multiples of each case's own size.
+    fn all_relative(&self, part: &Prepared<F>) -> Vec<KnobMargins<F>> {
+        let sizes = part.made.sizes();
+        let own = 0..part.made.chunk.cases.len();
+        let mut all = Vec::with_capacity(part.margins.len());
+        for (place, margins) in own.chain(part.others.iter().copied()).zip(&part.margins) {
+            all.push(self.relative_to(sizes[place], margins));
         }
         all
     }
