@@ -1,12 +1,12 @@
 //! All knobs together: the counts at every combination of some values, and the cheapest of them.
 
-use super::errors::{MaxError, errors_of};
+use super::errors::MaxError;
 use super::knob::{KnobMargins, MOST_KNOBS};
 use super::rays::{RayCount, WrongKind};
 use super::trials::{Pass, Setting, Trial};
 use crate::arith::Float;
 use crate::audit::Trials;
-use crate::engine::Merge;
+use crate::engine::{self, Merge};
 use crate::kernel::Scalar;
 use crate::suggest::nearest_name;
 
@@ -211,7 +211,7 @@ impl<F: Scalar> Joint<F> {
                     .for_each(|(sign, places)| cells[grid.cell(*places)] += sign);
             };
             add_to(&mut sums.cells[trial.count]);
-            let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
+            let is_exceeded = |max: &MaxError| max.is_exceeded(&trial.errors());
             let is_hit = setting.counts[trial.count].kind == WrongKind::Miss;
             if is_hit && max_error.is_some_and(is_exceeded) {
                 add_to(&mut sums.exceeded[trial.count]);
@@ -222,12 +222,7 @@ impl<F: Scalar> Joint<F> {
             cells,
             exceeded,
         } = setting.sum(pass, empty, add);
-        let all = |cells: Vec<Vec<i64>>| {
-            cells
-                .into_iter()
-                .map(|cells| accumulated(&grid, cells))
-                .collect()
-        };
+        let all = |cells: Vec<Vec<i64>>| engine::map(&cells, |cells| accumulated(&grid, cells));
         let (hits, exceeded) = (all(cells), max_error.map(|_| all(exceeded)));
         Joint {
             grid,
@@ -387,7 +382,7 @@ fn union(boxes: impl Iterator<Item = Accepted>) -> Vec<(i64, Accepted)> {
             kept.push(one);
         }
     }
-    let mut terms: Vec<(i64, Accepted)> = Vec::new();
+    let mut terms: Vec<(i64, Accepted)> = Vec::with_capacity(kept.len());
     for one in kept {
         for i in 0..terms.len() {
             let (sign, mut met) = terms[i];
@@ -402,7 +397,8 @@ fn union(boxes: impl Iterator<Item = Accepted>) -> Vec<(i64, Accepted)> {
 }
 
 /// By cell, the sum over all cells at or above it in every direction.
-fn accumulated<F: Float>(grid: &KnobGrid<F>, mut cells: Vec<i64>) -> Vec<i64> {
+fn accumulated<F: Float>(grid: &KnobGrid<F>, cells: &[i64]) -> Vec<i64> {
+    let mut cells = cells.to_vec();
     let mut stride = 1;
     for values in grid.values.iter().rev() {
         let length = values.len() + 1;

@@ -1,7 +1,7 @@
 //! Measures epsilons on some rays: wrong answers by their margins, the errors of the hits that remain, and
 //! whether the kernel's own runs agree.
 
-use super::errors::{ErrorSums, MaxError, errors_of};
+use super::errors::{ErrorSums, MaxError};
 use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, alone, is_own};
 use super::prepared::Prepared;
@@ -164,7 +164,7 @@ impl WrongAnswers {
         if kind != WrongKind::Miss {
             return;
         }
-        let errors = errors_of(trial);
+        let errors = trial.errors();
         let attempts = attempts.iter().zip(&mut self.of_hits);
         for (_, sums) in attempts.filter(|(attempt, _)| trial.is_hit(&attempt.epsilons)) {
             let pairs = sums.errors[trial.count].iter_mut().zip(errors);

@@ -1,5 +1,6 @@
 //! Rays of a scene with what the kernel makes of them, kept between the passes over them.
 
+use super::errors::{HitErrors, JudgedHit};
 use super::knob::{Guards, KnobMargins};
 use super::shared::MadeCases;
 use crate::case::Case;
@@ -22,8 +23,9 @@ pub(super) struct Prepared<F: Scalar> {
     pub others: Vec<usize>,
     /// The margins as multiples of each case's own size, once they were asked for.
     pub relative: OnceLock<Vec<KnobMargins<F>>>,
-    /// The values that a hit of each case of the chunk would report; none where no hit can be lost.
-    pub values: Vec<Option<Hit<F>>>,
+    /// The values that a hit of each case of the chunk would report, and its errors once they are asked for; none where no
+    /// hit can be lost.
+    pub hits: Vec<(Option<Hit<F>>, OnceLock<HitErrors>)>,
     /// The trials.
     pub trials: Vec<PreparedTrial>,
 }
@@ -43,6 +45,16 @@ pub(super) struct PreparedTrial {
 }
 
 impl<F: Scalar> Prepared<F> {
+    /// The hit of a trial's first case, if it can be lost.
+    pub fn first_hit(&self, trial: &PreparedTrial) -> Option<JudgedHit<'_, F>> {
+        let (hit, errors) = self.hits.get(trial.first)?;
+        Some(JudgedHit {
+            case: self.made.case(trial.first),
+            hit: hit.as_ref()?,
+            errors,
+        })
+    }
+
     /// The cases of the margins that are not those of the chunk.
     pub fn other_cases(&self) -> Vec<Case<F>> {
         let mut cases = Vec::with_capacity(self.others.len());
@@ -125,7 +137,7 @@ mod tests {
             margins: Vec::new(),
             others: Vec::new(),
             relative: OnceLock::new(),
-            values: Vec::new(),
+            hits: Vec::new(),
             trials: Vec::new(),
         }
     }

@@ -158,14 +158,20 @@ pub fn try_on_fresh<F: Scalar>(
     }
     let curves = curves(setting, &best, &axes, fresh);
     let limits = prices.of_limits(found, at_limits);
-    let tried = all_tried(setting, costs, vectors, wrong, run.of_hits, fresh);
+    let pictures_of_all = pictures(setting, &epsilons, fresh);
+    let mut tried = all_tried(setting, costs, vectors, wrong, run.of_hits);
+    for (tried, holes) in tried.iter_mut().zip(pictures_of_all) {
+        tried.holes = holes;
+    }
     let mut relative = None;
     let mut relative_limits = Vec::new();
     if let Some((scale_free, limits)) = scale_free {
         let form = try_scale_free(following, scale_free, costs, max_error, fresh);
         // Where no fixed values are accurate enough, a form that is needs no lower cost.
         if !is_accurate || is_worth_saying(setting.counts, costs, &form, &tried[0]) {
-            relative = Some(form);
+            let epsilons = [form.epsilons.clone()];
+            let holes = pictures(following, &epsilons, fresh).remove(0);
+            relative = Some(Tried { holes, ..form });
         }
         relative_limits = limits;
     }
@@ -216,24 +222,20 @@ fn attempts<F: Float>(
     attempts
 }
 
-/// The results of epsilons with names on fresh rays, from their wrong answers and the errors of their hits.
+/// The results of epsilons with names on fresh rays, from their wrong answers and the errors of their hits; no pictures yet.
 fn all_tried<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
     vectors: Vec<(String, Vec<F>)>,
     wrong_answers: Vec<Vec<Trials>>,
     of_hits: Vec<OfHits>,
-    fresh: Pass<'_>,
 ) -> Vec<Tried<F>> {
-    let epsilons: Vec<Vec<F>> = vectors.iter().map(|(_, all)| all.clone()).collect();
     let mut sums = wrong_answers.into_iter().zip(of_hits);
-    let mut pictures = pictures(setting, &epsilons, fresh).into_iter();
     let mut tried = Vec::with_capacity(vectors.len());
     for vector in vectors {
         let (wrong, of_hits) = sums.next().expect("sums of each attempt");
-        let holes = pictures.next().flatten();
         let cost = costs.of_trials(setting.counts, &wrong);
-        tried.push(Tried::new(vector, wrong, cost, of_hits, holes));
+        tried.push(Tried::new(vector, wrong, cost, of_hits));
     }
     tried
 }
@@ -250,7 +252,7 @@ fn try_scale_free<F: Scalar>(
     let no_run = |_: &Prepared<F>, _: &[KnobMargins<F>]| Ran::default();
     let sums = measure(following, &attempt, 1, max_error, fresh, no_run);
     let vector = vec![(SCALE_FREE.to_owned(), epsilons)];
-    all_tried(following, costs, vector, sums.trials, sums.of_hits, fresh).remove(0)
+    all_tried(following, costs, vector, sums.trials, sums.of_hits).remove(0)
 }
 
 /// For each of some epsilons the share of holes in a picture, where shared edges are counted.

@@ -1,5 +1,6 @@
 //! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
+use super::errors::{HitErrors, JudgedHit};
 use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
 use super::prepared::{Prepared, PreparedTrial, Store};
 use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
@@ -65,6 +66,9 @@ impl Pass<'_> {
     }
 }
 
+/// So many cases' margins are asked for together.
+const BLOCK: usize = 1024;
+
 /// The seed of the fresh rays: the next one.
 pub fn fresh_seed(seed: u64) -> u64 {
     seed.wrapping_add(1)
@@ -106,8 +110,8 @@ pub struct Trial<'a, F: Float> {
     pub margins: &'a [KnobMargins<F>],
     /// How many of the triangles are around the group and not of it.
     pub around: usize,
-    /// The first triangle with its ray, and the values that its hit would report.
-    pub first: Option<(&'a Case<F>, &'a Hit<F>)>,
+    /// The hit of its first triangle, if hits of such rays can be lost.
+    pub first: Option<JudgedHit<'a, F>>,
 }
 
 impl<F: Float> Trial<'_, F> {
@@ -116,6 +120,11 @@ impl<F: Float> Trial<'_, F> {
         self.margins
             .iter()
             .any(|margins| accepts(margins, epsilons))
+    }
+
+    /// The errors of the first triangle's hit, if hits of such rays can be lost.
+    pub fn errors(&self) -> HitErrors {
+        self.first.map_or(HitErrors::default(), |hit| hit.errors())
     }
 
     /// How many triangles of the group itself report a hit with these epsilons.
@@ -177,7 +186,6 @@ impl<F: Scalar> Setting<'_, F> {
                     };
                     look(sums, &part, margins);
                     for trial in &part.trials {
-                        let value = part.values.get(trial.first).and_then(Option::as_ref);
                         add(
                             sums,
                             Trial {
@@ -185,7 +193,7 @@ impl<F: Scalar> Setting<'_, F> {
                                 guards: trial.guards,
                                 margins: &margins[trial.margins.clone()],
                                 around: trial.around,
-                                first: value.map(|hit| (part.made.case(trial.first), hit)),
+                                first: part.first_hit(trial),
                             },
                         );
                     }
@@ -268,10 +276,10 @@ impl<F: Scalar> Setting<'_, F> {
             Some(shared) => shared.part(source, indices),
             None => Arc::new(MadeCases::new(source, indices)),
         };
-        let (margins, mut values) = self.margins(&made.chunk.cases);
-        if self.place(rays, WrongKind::Miss).is_none() {
-            // They are asked of hits that can be lost.
-            values = Vec::new();
+        let (margins, values) = self.margins(&made.chunk.cases);
+        let mut hits = Vec::new();
+        if self.place(rays, WrongKind::Miss).is_some() {
+            hits.extend(values.into_iter().map(|hit| (hit, OnceLock::new())));
         }
         let trials = self.trials(&made.chunk, rays);
         let mut prepared = Prepared {
@@ -279,7 +287,7 @@ impl<F: Scalar> Setting<'_, F> {
             margins,
             others: Vec::new(),
             relative: OnceLock::new(),
-            values,
+            hits,
             trials,
         };
         self.add_crossings(rays, &mut prepared);
@@ -343,12 +351,26 @@ impl<F: Scalar> Setting<'_, F> {
     /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a
     /// hit would report.
     pub(super) fn margins(&self, cases: &[Case<F>]) -> (Vec<KnobMargins<F>>, Vec<Option<Hit<F>>>) {
+        let mut margins = Vec::with_capacity(cases.len());
+        let mut values = vec![None; cases.len()];
+        // Around fans there are many cases, whose margins of all gates need not be in memory at once.
+        for (cases, values) in cases.chunks(BLOCK).zip(values.chunks_mut(BLOCK)) {
+            self.add_margins(cases, values, &mut margins);
+        }
+        (margins, values)
+    }
+
+    fn add_margins(
+        &self,
+        cases: &[Case<F>],
+        values: &mut [Option<Hit<F>>],
+        margins: &mut Vec<KnobMargins<F>>,
+    ) {
         let info = self.row.entry.info;
         let gates = info.gates;
         let epsilons = self.row.epsilons::<F>();
         let mut all = vec![F::zero(); cases.len() * gates.len()];
-        let mut values = vec![None; cases.len()];
-        self.subject.margins(info, cases, &mut all, &mut values);
+        self.subject.margins(info, cases, &mut all, values);
         let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
         let of_case = |i: usize| {
             let row = &all[i * gates.len()..(i + 1) * gates.len()];
@@ -368,7 +390,7 @@ impl<F: Scalar> Setting<'_, F> {
             }
             margins
         };
-        ((0..cases.len()).map(of_case).collect(), values)
+        margins.extend((0..cases.len()).map(of_case));
     }
 
     /// Margins as multiples of each case's own size.

@@ -441,7 +441,7 @@ fn cells_are_summed_over_all_above_them() {
         let all = all_places(&wide);
         assert_eq!(grid.cells(), all.len());
         let cells: Vec<i64> = all.iter().map(|_| draw.integer(-9, 9)).collect();
-        let sums = accumulated(&grid, cells.clone());
+        let sums = accumulated(&grid, &cells);
         for places in &all {
             let above = |other: &&Vec<usize>| places.iter().zip(*other).all(|(p, o)| p <= o);
             let sum: i64 = all
@@ -455,7 +455,7 @@ fn cells_are_summed_over_all_above_them() {
                 "{lengths:?} {places:?}"
             );
         }
-        assert!(accumulated(&grid, Vec::new()).is_empty());
+        assert!(accumulated(&grid, &[]).is_empty());
     }
 }
 
