@@ -12,6 +12,7 @@ hairline_study::studied! {
         costs: &Costs,
         max_error: Option<&MaxError>,
         pass: Pass<'_>,
+        form_rays: u64,
     ) -> Chosen<Self>;
     epsilon::try_on_fresh: fn try_on_fresh(
         setting: &Setting<'_, Self>,

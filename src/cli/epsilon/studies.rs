@@ -52,10 +52,16 @@ impl EpsilonRun<'_> {
         for (study, chosen) in begun.iter().zip(chosen) {
             studies.push(self.try_on_fresh(study, chosen, shared)?);
         }
+        let costs: Vec<f64> = studies.iter().map(|study| study.tried[0].cost).collect();
+        let on_screen = self.on_screen(&costs);
         for scene in &self.studied.others {
             cases.forget();
-            for (begun, study) in begun.iter().zip(&mut studies) {
-                self.try_elsewhere(begun, study, scene, shared)?;
+            for ((begun, study), on_screen) in begun.iter().zip(&mut studies).zip(&on_screen) {
+                // A proof is tried as hard on every row.
+                let is_wanted = *on_screen || !study.proved.is_empty();
+                let rays = self.rays_elsewhere(&begun.planned, is_wanted);
+                let setting = self.setting_of(begun, shared)?;
+                F::try_elsewhere(&setting, study, scene, self.pass.of(rays));
             }
         }
         let mut parts = Vec::with_capacity(begun.len());
@@ -116,10 +122,7 @@ impl EpsilonRun<'_> {
 
     /// The rays of a study.
     fn pass_of<F>(&self, study: &BegunStudy<'_, F>) -> Pass<'_> {
-        Pass {
-            count: study.planned.rays,
-            ..self.pass
-        }
+        self.pass.of(study.planned.rays)
     }
 
     fn setting_of<'b, F: Advised>(
@@ -136,7 +139,8 @@ impl EpsilonRun<'_> {
         shared: Option<&SharedCases<F>>,
     ) -> Result<Chosen<F>, Failure> {
         let setting = self.setting_of(study, shared)?;
-        let chosen = F::choose(&setting, self.costs, self.max_error, self.pass_of(study));
+        let (pass, form_rays) = (self.pass_of(study), self.rays_of_form(&study.planned));
+        let chosen = F::choose(&setting, self.costs, self.max_error, pass, form_rays);
         found_margins(study.judged.row.entry.info.name, setting.subject)?;
         Ok(chosen)
     }
@@ -153,22 +157,6 @@ impl EpsilonRun<'_> {
         let entry = study.judged.row.entry;
         found_margins(entry.info.name, setting.subject)?;
         found.map_err(|error| fault(entry, error))
-    }
-
-    fn try_elsewhere<F: Advised>(
-        &self,
-        begun: &BegunStudy<'_, F>,
-        study: &mut SceneStudy<F>,
-        scene: &Scene,
-        shared: Option<&SharedCases<F>>,
-    ) -> Result<(), Failure> {
-        let setting = self.setting_of(begun, shared)?;
-        let pass = Pass {
-            count: self.rays_elsewhere(&begun.planned),
-            ..self.pass
-        };
-        F::try_elsewhere(&setting, study, scene, pass);
-        Ok(())
     }
 
     /// The part of the record, and the kernel's nanoseconds a ray.

@@ -203,12 +203,19 @@ impl<F: Scalar> Joint<F> {
         let add = |sums: &mut JointSums, trial: Trial<'_, F>| {
             sums.of[trial.count] += 1;
             let boxes = trial.margins.iter();
-            let terms = union(boxes.filter_map(|margins| grid.accepted(margins)));
+            let boxes = boxes.filter_map(|margins| grid.accepted(margins));
             let add_to = |cells: &mut Vec<i64>| {
                 cells.resize(grid.cells(), 0);
-                terms
-                    .iter()
-                    .for_each(|(sign, places)| cells[grid.cell(*places)] += sign);
+                // Most rays have one triangle.
+                if trial.margins.len() == 1 {
+                    for places in boxes.clone() {
+                        cells[grid.cell(places)] += 1;
+                    }
+                    return;
+                }
+                for (sign, places) in union(boxes.clone()) {
+                    cells[grid.cell(places)] += sign;
+                }
             };
             add_to(&mut sums.cells[trial.count]);
             let is_exceeded = |max: &MaxError| max.is_exceeded(&trial.errors());

@@ -66,6 +66,8 @@ pub struct Chosen<F> {
     limits: Vec<KnobLimit<F>>,
     /// The cheapest that follow each case's size, with their limits.
     scale_free: Option<(Vec<F>, Vec<KnobLimit<F>>)>,
+    /// So many rays of each kind choose and try these.
+    form_rays: u64,
 }
 
 /// Runs a study: [`choose`], and [`try_on_fresh`].
@@ -76,16 +78,17 @@ pub fn study_scene<F: Scalar>(
     named: &[(String, Vec<F>)],
     pass: Pass<'_>,
 ) -> Result<SceneStudy<F>, String> {
-    let chosen = choose(setting, costs, max_error, pass);
+    let chosen = choose(setting, costs, max_error, pass, pass.count);
     try_on_fresh(setting, chosen, costs, max_error, named, pass)
 }
 
-/// Chooses epsilons on the rays of a seed.
+/// Chooses epsilons on the rays of a seed, and those that follow each case's size on so many of each kind.
 pub fn choose<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
     max_error: Option<&MaxError>,
     pass: Pass<'_>,
+    form_rays: u64,
 ) -> Chosen<F> {
     let store = Store::default();
     let setting = &Setting {
@@ -102,13 +105,15 @@ pub fn choose<F: Scalar>(
         relative: true,
         ..*setting
     };
-    let scale_free = cheapest(following, costs, max_error, pass)
-        .map(|on_grid| within_limits(following, on_grid, costs, max_error, pass));
+    let of_form = pass.of(form_rays);
+    let scale_free = cheapest(following, costs, max_error, of_form)
+        .map(|on_grid| within_limits(following, on_grid, costs, max_error, of_form));
     Chosen {
         best,
         is_accurate,
         limits,
         scale_free,
+        form_rays,
     }
 }
 
@@ -127,6 +132,7 @@ pub fn try_on_fresh<F: Scalar>(
         is_accurate,
         limits: found,
         scale_free,
+        form_rays,
     } = chosen;
     let store = Store::default();
     let setting = &Setting {
@@ -166,11 +172,12 @@ pub fn try_on_fresh<F: Scalar>(
     let mut relative = None;
     let mut relative_limits = Vec::new();
     if let Some((scale_free, limits)) = scale_free {
-        let form = try_scale_free(following, scale_free, costs, max_error, fresh);
+        let of_form = fresh.of(form_rays);
+        let form = try_scale_free(following, scale_free, costs, max_error, of_form);
         // Where no fixed values are accurate enough, a form that is needs no lower cost.
         if !is_accurate || is_worth_saying(setting.counts, costs, &form, &tried[0]) {
             let epsilons = [form.epsilons.clone()];
-            let holes = pictures(following, &epsilons, fresh).remove(0);
+            let holes = pictures(following, &epsilons, of_form).remove(0);
             relative = Some(Tried { holes, ..form });
         }
         relative_limits = limits;

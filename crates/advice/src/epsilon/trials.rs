@@ -57,6 +57,14 @@ impl Pass<'_> {
         }
     }
 
+    /// At most so many of these rays of each kind.
+    pub fn of(self, most: u64) -> Self {
+        Pass {
+            count: self.count.min(most),
+            ..self
+        }
+    }
+
     /// As many fresh rays.
     pub fn fresh(self) -> Self {
         Pass {
