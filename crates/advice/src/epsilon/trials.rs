@@ -3,16 +3,16 @@
 use super::errors::{HitErrors, JudgedHit};
 use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
 use super::prepared::{Prepared, PreparedTrial, Store};
+use super::queue::Queue;
 use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
-use super::relative::{CaseSizes, relative};
 use super::shared::{MadeCases, SharedCases};
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, Stock};
 use crate::case::{Case, Parameters, Scene};
-use crate::engine::{self, Merge, Observer};
+use crate::engine::{self, Merge, Observer, Unobserved};
 use crate::family::{Grouping, Pixel, Stratum, add_ring, pixel, pixel_draw};
 use crate::judge::{Class, Obligation};
-use crate::kernel::{Hit, KernelIn, Scalar};
+use crate::kernel::{KernelIn, Scalar};
 use crate::mesh::SceneMesh;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -73,9 +73,6 @@ impl Pass<'_> {
         }
     }
 }
-
-/// So many cases' margins are asked for together.
-const BLOCK: usize = 1024;
 
 /// The seed of the fresh rays: the next one.
 pub fn fresh_seed(seed: u64) -> u64 {
@@ -176,47 +173,53 @@ impl<F: Scalar> Setting<'_, F> {
         add: impl Fn(&mut S, Trial<'_, F>) + Sync,
         look: impl Fn(&mut S, &Prepared<F>, &[KnobMargins<F>]) + Sync,
     ) -> S {
-        let mut total = empty();
+        let queue = self.queue(pass);
+        let add_chunk = |sums: &mut S, chunk: u64| {
+            let (queued, indices) = queue.at(chunk);
+            let place = (queued.group, queued.place, indices.start, indices.end);
+            let count = indices.end - indices.start;
+            let make = || self.prepare(&queued.source, queued.rays, indices);
+            let part = match self.store {
+                Some(store) => store.part(pass.seed, place, make),
+                None => Arc::new(make()),
+            };
+            let margins = match self.relative {
+                true => part.relative.get_or_init(|| self.all_relative(&part)),
+                false => &part.margins,
+            };
+            look(sums, &part, margins);
+            for trial in &part.trials {
+                add(
+                    sums,
+                    Trial {
+                        count: trial.count,
+                        guards: trial.guards,
+                        margins: &margins[trial.margins.clone()],
+                        around: trial.around,
+                        first: part.first_hit(trial),
+                    },
+                );
+            }
+            pass.observer.advance(count);
+        };
+        // All kinds of rays in one queue, so that threads wait for each other once a pass.
+        engine::sum(0..queue.chunks(), 1, &Unobserved, empty, |sums, chunks| {
+            chunks.for_each(|chunk| add_chunk(sums, chunk));
+        })
+    }
+
+    /// The sources of a pass, one after the other.
+    fn queue(&self, pass: Pass<'_>) -> Queue {
         let mut all: Vec<Rays> = self.counts.iter().map(|count| count.rays).collect();
         all.dedup_by(|a, b| a == b);
+        let mut queue = Queue::default();
         for (group, rays) in all.into_iter().enumerate() {
             for (place, source) in self.sources_of(rays, pass).into_iter().enumerate() {
-                let add = |sums: &mut S, indices: Range<u64>| {
-                    let place = (group, place, indices.start, indices.end);
-                    let make = || self.prepare(&source, rays, indices);
-                    let part = match self.store {
-                        Some(store) => store.part(pass.seed, place, make),
-                        None => Arc::new(make()),
-                    };
-                    let margins = match self.relative {
-                        true => part.relative.get_or_init(|| self.all_relative(&part)),
-                        false => &part.margins,
-                    };
-                    look(sums, &part, margins);
-                    for trial in &part.trials {
-                        add(
-                            sums,
-                            Trial {
-                                count: trial.count,
-                                guards: trial.guards,
-                                margins: &margins[trial.margins.clone()],
-                                around: trial.around,
-                                first: part.first_hit(trial),
-                            },
-                        );
-                    }
-                };
-                let indices = 0..source.count::<F>();
-                total.merge(engine::sum(
-                    indices,
-                    source.chunk(),
-                    pass.observer,
-                    &empty,
-                    add,
-                ));
+                let count = source.count::<F>();
+                queue.add(rays, [group, place], source, count);
             }
         }
-        total
+        queue
     }
 
     /// The first indices of the rays of one kind; of stored cases all.
@@ -355,91 +358,4 @@ impl<F: Scalar> Setting<'_, F> {
         }
         trials
     }
-
-    /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a
-    /// hit would report.
-    pub(super) fn margins(&self, cases: &[Case<F>]) -> (Vec<KnobMargins<F>>, Vec<Option<Hit<F>>>) {
-        let mut margins = Vec::with_capacity(cases.len());
-        let mut values = vec![None; cases.len()];
-        // Around fans there are many cases, whose margins of all gates need not be in memory at once.
-        for (cases, values) in cases.chunks(BLOCK).zip(values.chunks_mut(BLOCK)) {
-            self.add_margins(cases, values, &mut margins);
-        }
-        (margins, values)
-    }
-
-    fn add_margins(
-        &self,
-        cases: &[Case<F>],
-        values: &mut [Option<Hit<F>>],
-        margins: &mut Vec<KnobMargins<F>>,
-    ) {
-        let info = self.row.entry.info;
-        let gates = info.gates;
-        let epsilons = self.row.epsilons::<F>();
-        let mut all = vec![F::zero(); cases.len() * gates.len()];
-        self.subject.margins(info, cases, &mut all, values);
-        let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
-        let of_case = |i: usize| {
-            let row = &all[i * gates.len()..(i + 1) * gates.len()];
-            if row.iter().any(|margin| margin.is_nan()) {
-                return [F::from_f64(f64::NAN); MOST_KNOBS];
-            }
-            let refused = (0..gates.len()).any(|g| is_fixed(g) && row[g] < epsilons[g]);
-            let mut margins = [F::infinity(); MOST_KNOBS];
-            if refused {
-                return [-F::infinity(); MOST_KNOBS];
-            }
-            for (margin, knob) in margins.iter_mut().zip(self.knobs) {
-                *margin = match knob {
-                    Knob::Gate(gate) => row[*gate],
-                    Knob::LeastT => t_of(values[i].as_ref()),
-                };
-            }
-            margins
-        };
-        margins.extend((0..cases.len()).map(of_case));
-    }
-
-    /// Margins as multiples of each case's own size.
-    pub(super) fn relative_margins(
-        &self,
-        cases: &[Case<F>],
-        margins: &[KnobMargins<F>],
-    ) -> Vec<KnobMargins<F>> {
-        let mut all = Vec::with_capacity(margins.len());
-        for (case, margins) in cases.iter().zip(margins) {
-            all.push(self.relative_to(CaseSizes::of(case), margins));
-        }
-        all
-    }
-
-    /// The margins of one case as multiples of its own sizes.
-    pub(super) fn relative_to(&self, sizes: CaseSizes, margins: &KnobMargins<F>) -> KnobMargins<F> {
-        let mut own = *margins;
-        for (margin, knob) in own.iter_mut().zip(self.knobs) {
-            let dimension = knob.gate(self.row.entry.info.gates).dimension;
-            if dimension.has_unit() && margin.is_finite() {
-                *margin = relative(*margin, sizes.unit(dimension));
-            }
-        }
-        own
-    }
-
-    /// All margins of a part as multiples of each case's own size.
-    fn all_relative(&self, part: &Prepared<F>) -> Vec<KnobMargins<F>> {
-        let sizes = part.made.sizes();
-        let own = 0..part.made.chunk.cases.len();
-        let mut all = Vec::with_capacity(part.margins.len());
-        for (place, margins) in own.chain(part.others.iter().copied()).zip(&part.margins) {
-            all.push(self.relative_to(sizes[place], margins));
-        }
-        all
-    }
-}
-
-/// The t that a hit would report; -inf if it is no number, for no comparison accepts that.
-fn t_of<F: Float>(values: Option<&Hit<F>>) -> F {
-    let t = values.and_then(|hit| hit.t);
-    t.filter(|t| !t.is_nan()).unwrap_or(-F::infinity())
 }
