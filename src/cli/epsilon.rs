@@ -1,6 +1,7 @@
 //! `hairline epsilon`: which epsilons, all of a kernel together, for a scene or on families and stored cases.
 
 mod rounds;
+mod studies;
 
 use super::before::{
     note_secondary_rays, refuse_wrong_values, scalars_in_use, scalars_with_cases, set_threads,
@@ -8,27 +9,21 @@ use super::before::{
 use super::exit::{Failure, Status};
 use super::flags::{refuse_twice, scalars_of};
 use super::output::{OutputArguments, paired_outputs};
-use super::plugins;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::SourceArguments;
 use crate::advised::Advised;
 use crate::arith::{ScalarName, smallest_normal};
 use crate::audit::Row;
-use crate::case::{Scene, Target};
-use crate::engine::Unobserved;
+use crate::case::Target;
 use crate::epsilon::{
-    COUNT, Costs, Knob, LEAST_T, MOST_KNOBS, MaxError, Pass, RayCount, Setting, SharedCases,
-    StudiedRays, contract_with, counts, counts_of, fresh_seed, own_epsilons,
+    COUNT, Costs, Knob, MOST_KNOBS, MaxError, Pass, RayCount, Setting, SharedCases, StudiedRays,
+    contract_with, counts, counts_of,
 };
 use crate::family::STRATA;
-use crate::kernel::{Entry, KernelIn, Scalar};
-use crate::offset::SegmentPlan;
+use crate::kernel::{Entry, Scalar};
 use crate::record::Context;
-use crate::report::SegmentsPart;
-use crate::report::epsilon::{
-    SCENE_FORMATS, SceneKernelPart, has_a_table, kernel_part, rows_on_screen, scene_record,
-};
+use crate::report::epsilon::{SCENE_FORMATS, has_a_table, rows_on_screen, scene_record};
 use crate::suggest::nearest_name;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
@@ -241,9 +236,6 @@ struct Tuned<'a> {
     knobs: Vec<Knob>,
 }
 
-/// The part of the record, and the kernel's nanoseconds a ray.
-type StudiedKernel = (SceneKernelPart, f64);
-
 /// A kernel as it is judged here, and what is counted of it.
 struct Judged {
     row: Row,
@@ -288,25 +280,6 @@ impl EpsilonRun<'_> {
         all
     }
 
-    /// The rounds of the kernels of one scalar and then their studies, which have their cases in common; with the places in
-    /// the record.
-    fn study_all<F: Advised>(
-        &self,
-        mut planned: Vec<PlannedStudy<'_>>,
-    ) -> Result<Vec<(usize, StudiedKernel)>, Failure> {
-        let cases = SharedCases::<F>::default();
-        let shared = (1 < planned.len()).then_some(&cases);
-        if self.has_rounds {
-            self.hold_rounds(&mut planned, shared)?;
-        }
-        self.expect_studies(&planned);
-        let mut parts = Vec::with_capacity(planned.len());
-        for study in &planned {
-            parts.push((study.place, self.study(study, shared)?));
-        }
-        Ok(parts)
-    }
-
     /// The kernel as it is judged, with what is counted.
     fn judged(&self, tuned: &Tuned<'_>) -> Result<Judged, Failure> {
         let row = Row {
@@ -347,110 +320,7 @@ impl EpsilonRun<'_> {
             shared,
         })
     }
-
-    /// The part of the record, and the kernel's nanoseconds a ray.
-    fn study<F: Advised>(
-        &self,
-        planned: &PlannedStudy<'_>,
-        shared: Option<&SharedCases<F>>,
-    ) -> Result<StudiedKernel, Failure> {
-        let tuned = planned.tuned;
-        let Tuned { row, sets, knobs } = tuned;
-        let name = row.entry.info.name;
-        let judged = self.judged(tuned)?;
-        let setting = self.setting(tuned, &judged, shared)?;
-        let number = |flag: &str, text: &str| {
-            let value = F::parse(text).filter(|value| value.is_finite());
-            let wrong = || format!("{flag}: '{text}' is not a finite number of {}", F::NAME);
-            value.ok_or_else(|| Failure::usage(wrong()))
-        };
-        let least_t = self
-            .least_t
-            .map(|text| number("--epsilon", text))
-            .transpose()?;
-        if least_t.is_some_and(|t| t < F::zero()) {
-            return Err(Failure::usage(format!(
-                "--epsilon: {LEAST_T} is at least 0"
-            )));
-        }
-        let own = |set: &&Row| {
-            let name = self
-                .least_t
-                .map(|text| format!("{},{LEAST_T}={text}", set.set));
-            let epsilons = own_epsilons::<F>(set, knobs, least_t.unwrap_or(F::zero()));
-            (name.unwrap_or_else(|| set.set.clone()), epsilons)
-        };
-        let mut named: Vec<(String, Vec<F>)> = sets.iter().map(own).collect();
-        named.push(("zero".to_owned(), vec![F::zero(); knobs.len()]));
-        for text in &self.arguments.at {
-            let value = number("--at", text)?;
-            let gates = row.entry.info.gates;
-            if value < F::zero() && !knobs[0].takes_negative(gates) {
-                let knob = knobs[0].gate(gates).name;
-                let message = format!(
-                    "--at: below 0 {knob} refuses what it does at 0, so {text} means nothing"
-                );
-                return Err(Failure::usage(message));
-            }
-            named.push((text.clone(), vec![value]));
-        }
-        let EpsilonRun {
-            costs, max_error, ..
-        } = *self;
-        let pass = Pass {
-            count: planned.rays,
-            ..self.pass
-        };
-        let study = F::study_scene(&setting, costs, max_error, &named, pass);
-        found_margins(name, setting.subject)?;
-        let mut study = study.map_err(|error| fault(row.entry, error))?;
-        let elsewhere = Pass {
-            count: self.rays_elsewhere(planned),
-            ..pass
-        };
-        F::try_elsewhere(&setting, &mut study, &self.studied.others, elsewhere);
-        let mut part = kernel_part(&setting, &tuned.row.contract, &study, max_error);
-        part.segments = self.segments::<F>(tuned.row);
-        part.rays = (planned.rays < self.pass.count).then_some(planned.rays);
-        Ok((part, study.nanoseconds))
-    }
-
-    /// Where segments end in the scene, for a kernel that has a page of its own.
-    fn segments<F: Advised>(&self, row: &Row) -> Option<SegmentsPart> {
-        let StudiedRays {
-            scene,
-            mesh,
-            others,
-            strata,
-            ..
-        } = self.studied;
-        let scene = scene
-            .as_ref()
-            .filter(|_| strata.is_empty() && self.is_alone)?;
-        let scenes: Vec<Scene> = [scene.clone()]
-            .into_iter()
-            .chain(others.iter().cloned())
-            .collect();
-        let Pass { seed, count, .. } = self.pass;
-        let plan = SegmentPlan {
-            row,
-            scene: &scenes[0],
-            mesh: mesh.as_ref(),
-            ends: &[],
-            seed,
-            count: count.min(MOST_SEGMENTS),
-        };
-        Some(SegmentsPart::study::<F>(
-            &plan,
-            &scenes,
-            [fresh_seed(seed), seed],
-            &Unobserved,
-        ))
-    }
 }
-
-/// Segments of each kind of plane, at most: they are a line beside the epsilons.
-const MOST_SEGMENTS: u64 = 10_000;
 
 impl EpsilonArguments {
     fn check_at(&self) -> Result<(), Failure> {
@@ -536,26 +406,5 @@ pub fn tells_margins<T: Target>(entry: &Entry<T>, audit: &str) -> Result<(), Str
         "{}: a command is too slow to be asked at many epsilons a case (a --kernel-lib is not, nor is a command \
          that answers for margins: docs/protocol.md); `{audit} --epsilon GATE=VALUE` runs it at one",
         entry.info.name
-    ))
-}
-
-/// An error if a kernel failed on too many cases while its margins were looked for, or for good.
-fn found_margins<F: Scalar>(name: &str, subject: &dyn KernelIn<F>) -> Result<(), Failure> {
-    plugins::check()?;
-    match subject.margins_gave_up() {
-        None => Ok(()),
-        Some(message) => Err(Failure::bad_input(format!("kernel '{name}': {message}"))),
-    }
-}
-
-/// A disagreement between margins and runs: a fault of this tool, or of a kernel whose gates nobody sees.
-fn fault(entry: &Entry, error: String) -> Failure {
-    if entry.shows_gates() {
-        return Failure::self_check(format!("self-check: {error}"));
-    }
-    let name = entry.info.name;
-    Failure::bad_input(format!(
-        "kernel '{name}': its epsilons do not each act alone, or its answers are not a function of the case and \
-         the epsilons: {error}. Raising an epsilon must only refuse more, whatever the others are"
     ))
 }

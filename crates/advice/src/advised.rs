@@ -2,13 +2,21 @@
 
 use crate::case::Scene;
 use crate::engine::Observer;
-use crate::epsilon::{self, Costs, MaxError, Pass, SceneStudy, Setting};
+use crate::epsilon::{self, Chosen, Costs, MaxError, Pass, SceneStudy, Setting};
 use crate::offset;
 
 hairline_study::studied! {
     Advised;
-    epsilon::study_scene: fn study_scene(
+    epsilon::choose: fn choose(
         setting: &Setting<'_, Self>,
+        costs: &Costs,
+        max_error: Option<&MaxError>,
+        pass: Pass<'_>,
+        form_rays: u64,
+    ) -> Chosen<Self>;
+    epsilon::try_on_fresh: fn try_on_fresh(
+        setting: &Setting<'_, Self>,
+        chosen: Chosen<Self>,
         costs: &Costs,
         max_error: Option<&MaxError>,
         named: &[(String, Vec<Self>)],
@@ -22,7 +30,7 @@ hairline_study::studied! {
     epsilon::try_elsewhere: fn try_elsewhere(
         setting: &Setting<'_, Self>,
         study: &mut SceneStudy<Self>,
-        scenes: &[Scene],
+        scene: &Scene,
         pass: Pass<'_>,
     ) -> ();
     offset::run::<Self>: fn offset(

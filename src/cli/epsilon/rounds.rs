@@ -3,6 +3,7 @@
 use super::{EpsilonRun, PASSES, Tuned};
 use crate::advised::Advised;
 use crate::arith::ScalarName;
+use crate::audit::CHUNK;
 use crate::cli::exit::Failure;
 use crate::epsilon::{Contender, Pass, SharedCases, surely_dearer};
 use crate::record::group_digits;
@@ -15,8 +16,16 @@ const PASSES_OF_ROUND: u64 = 3;
 const ROUNDS: [u64; 2] = [16, 4];
 
 /// The most rays of each kind that are tried on each other kind of plane, where there are many kernels: no row of the table shows
-/// them.
+/// them. Kernels that are not on the screen have one chunk of them, which is made for all.
 const MOST_ELSEWHERE: u64 = 5_000;
+const MOST_BELOW_THE_SCREEN: u64 = CHUNK;
+
+/// Where there are many kernels, numbers that follow each triangle's size are weighed on a fourth of the rays. No row
+/// stands where it does because of them, and those that halve the cost show with fewer.
+const SHARE_OF_FORMS: u64 = 4;
+
+/// The passes of [`PASSES`] that are about such numbers.
+const PASSES_OF_FORMS: u64 = 5;
 
 /// A kernel in a scalar, and how many rays of each kind it gets.
 pub(super) struct PlannedStudy<'a> {
@@ -120,18 +129,42 @@ impl EpsilonRun<'_> {
     /// Lets the progress know how much the studies are.
     pub(super) fn expect_studies(&self, planned: &[PlannedStudy<'_>]) {
         let others = self.studied.others.len() as u64;
-        for study in planned {
-            let passes = PASSES * study.rays + others * self.rays_elsewhere(study);
-            self.progress.expect_more(passes * self.kinds);
+        for (place, study) in planned.iter().enumerate() {
+            let of_forms = PASSES_OF_FORMS * self.rays_of_form(study);
+            let of_fixed = (PASSES - PASSES_OF_FORMS) * study.rays;
+            // Which ones are on the screen shows later.
+            let elsewhere = others * self.rays_elsewhere(study, place < self.places);
+            self.progress
+                .expect_more((of_fixed + of_forms + elsewhere) * self.kinds);
+        }
+    }
+
+    /// On how many rays of each kind numbers are weighed that follow each triangle's size.
+    pub(super) fn rays_of_form(&self, study: &PlannedStudy<'_>) -> u64 {
+        if self.has_rounds {
+            study.rays.min(self.pass.count / SHARE_OF_FORMS)
+        } else {
+            study.rays
         }
     }
 
     /// How many rays of each kind are tried on each other kind of plane.
-    pub(super) fn rays_elsewhere(&self, study: &PlannedStudy<'_>) -> u64 {
-        if self.has_rounds {
-            study.rays.min(MOST_ELSEWHERE)
-        } else {
-            study.rays
-        }
+    pub(super) fn rays_elsewhere(&self, study: &PlannedStudy<'_>, is_wanted: bool) -> u64 {
+        let most = match (self.has_rounds, is_wanted) {
+            (false, _) => u64::MAX,
+            (true, true) => MOST_ELSEWHERE,
+            (true, false) => MOST_BELOW_THE_SCREEN,
+        };
+        study.rays.min(most)
+    }
+
+    /// For each of some costs, true if its row is on the screen. Equal costs count once, since the table puts them in one
+    /// row.
+    pub(super) fn on_screen(&self, costs: &[f64]) -> Vec<bool> {
+        let mut different = costs.to_vec();
+        different.sort_by(f64::total_cmp);
+        different.dedup();
+        let shown = &different[..different.len().min(self.places)];
+        costs.iter().map(|cost| shown.contains(cost)).collect()
     }
 }

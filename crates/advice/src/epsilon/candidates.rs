@@ -1,6 +1,6 @@
 //! The values that are weighed for each knob: round numbers over the range in which they matter.
 
-use super::errors::{MaxError, errors_of};
+use super::errors::MaxError;
 use super::joint::KnobGrid;
 use super::knob::{Knob, MOST_KNOBS};
 use super::rays::{Rays, WrongKind};
@@ -146,7 +146,7 @@ fn is_to_be_refused<F: Scalar>(
         return !kind.is_wrong_if_refused();
     }
     // A hit that is too far off is to be refused too.
-    max_error.is_some_and(|max| max.is_exceeded(&errors_of(trial)))
+    max_error.is_some_and(|max| max.is_exceeded(&trial.errors()))
 }
 
 /// The largest margin of a knob among the triangles of a trial: an epsilon above it refuses all of them.

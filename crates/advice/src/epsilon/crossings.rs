@@ -7,72 +7,38 @@
 use super::knob::{KnobMargins, MOST_KNOBS};
 use super::prepared::{Prepared, PreparedTrial};
 use super::rays::{RayCount, Rays, WrongKind};
+use super::shared::MadeCases;
 use super::trials::{Setting, is_unknown};
 use crate::arith::Float;
-use crate::audit::{Chunk, Source};
+use crate::audit::Source;
 use crate::case::Case;
 use crate::judge::{GroupTruth, is_moved};
 use crate::kernel::Scalar;
 use crate::oracle::Layers;
 use std::cell::OnceCell;
 use std::ops::Range;
-use std::slice;
 
-/// A ray that crosses a surface at an edge or vertex which triangles share, and what stands around these.
-pub(super) struct Surrounded {
-    count: usize,
-    /// The cases of the group in its chunk.
-    group: Range<usize>,
-    /// Those of the triangles around it, among all that were asked.
-    around: Range<usize>,
-}
-
-/// The crossings of a chunk.
-pub(super) struct Crossings<F: Float> {
-    each: Vec<Surrounded>,
-    /// The triangles around the groups that the exact line does not meet.
-    around: Vec<Case<F>>,
-}
-
-/// The triangles of a group with their margins; and those as multiples of each triangle's size, once they are asked for.
+/// The margins of a group's triangles; and these as multiples of each triangle's size, once they are asked for.
 struct MeasuredGroup<'a, F: Float> {
-    cases: &'a [Case<F>],
+    places: Range<usize>,
     margins: &'a [KnobMargins<F>],
     relative: OnceCell<Vec<KnobMargins<F>>>,
 }
 
 impl<F: Scalar> Setting<'_, F> {
-    /// The crossings of a chunk. Where the triangles around a group are too many to be asked, nobody is accused.
-    pub(super) fn crossings(&self, source: &Source, chunk: &Chunk<F>, rays: Rays) -> Crossings<F> {
-        let mut crossings = Crossings {
-            each: Vec::new(),
-            around: Vec::new(),
-        };
-        let of_cracks = RayCount {
-            rays,
-            kind: WrongKind::Crack,
-        };
-        let Some(count) = self.counts.iter().position(|count| *count == of_cracks) else {
-            return crossings;
-        };
-        let truths = chunk.group_truths(&self.row.contract);
-        let mut around = Vec::new();
-        for ((index, group), truth) in chunk.groups().zip(truths) {
-            around.clear();
-            let is_asked = truth == GroupTruth::Crossing
-                && source.add_neighbours(index, &chunk.cases[group.clone()], &mut around);
-            if !is_asked {
+    /// The crossings of a chunk: groups, and the triangles around them that may have their hit. Where these are too many
+    /// to be asked, nobody is accused.
+    fn crossings(&self, made: &MadeCases<F>) -> Vec<(Range<usize>, Range<usize>)> {
+        let truths = made.chunk.group_truths(&self.row.contract);
+        let mut crossings = Vec::with_capacity(truths.len());
+        let groups = made.chunk.groups().zip(&made.around.of_groups);
+        for (((_, group), around), truth) in groups.zip(truths) {
+            if truth != GroupTruth::Crossing {
                 continue;
             }
-            self.keep_moved(source, &mut around);
-            let start = crossings.around.len();
-            crossings.around.append(&mut around);
-            let around = start..crossings.around.len();
-            crossings.each.push(Surrounded {
-                count,
-                group,
-                around,
-            });
+            if let Some(around) = around {
+                crossings.push((group, around.clone()));
+            }
         }
         crossings
     }
@@ -89,60 +55,63 @@ impl<F: Scalar> Setting<'_, F> {
         });
     }
 
-    /// Adds crossings as trials. Triangles around a group come after those of the group, which is put at the end once
-    /// more; those that report no hit where the group reports none are left out.
-    pub(super) fn add_crossings(&self, crossings: Crossings<F>, prepared: &mut Prepared<F>) {
-        let Crossings {
-            each,
-            around: cases,
-        } = crossings;
-        let (margins, values) = self.margins(&cases);
-        for Surrounded {
-            count,
-            group,
-            around: range,
-        } in each
-        {
+    /// Adds the crossings of rays that count as cracks. The margins of triangles around a group come after those of the
+    /// group, which are put at the end once more; those that report no hit where the group reports none are left out.
+    pub(super) fn add_crossings(&self, rays: Rays, prepared: &mut Prepared<F>) {
+        let of_cracks = RayCount {
+            rays,
+            kind: WrongKind::Crack,
+        };
+        let Some(count) = self.counts.iter().position(|count| *count == of_cracks) else {
+            return;
+        };
+        let made = prepared.made.clone();
+        let own_cases = made.chunk.cases.len();
+        let around = &made.around;
+        let (margins, _) = self.margins(&around.cases);
+        for (group, others) in self.crossings(&made) {
             let own = MeasuredGroup {
-                cases: &prepared.cases[group.clone()],
+                places: group.clone(),
                 margins: &prepared.margins[group.clone()],
                 relative: OnceCell::new(),
             };
             let mut kept = Vec::new();
-            for i in range {
-                if !self.is_left_out(&cases[i], &margins[i], &own) {
+            for i in others {
+                let is_its_own = !is_moved(&around.truths[i], &self.row.contract);
+                let place = own_cases + i;
+                if !is_its_own && !self.is_left_out(&made, place, &margins[i], &own) {
                     kept.push(i);
                 }
             }
             let trial = PreparedTrial {
                 count,
-                guards: [matches!(self.counts[count].rays, Rays::Stratum(_)); MOST_KNOBS],
-                cases: group.clone(),
+                guards: [matches!(rays, Rays::Stratum(_)); MOST_KNOBS],
+                first: group.start,
+                margins: group.clone(),
                 around: kept.len(),
             };
             if kept.is_empty() {
                 prepared.trials.push(trial);
                 continue;
             }
-            let start = prepared.cases.len();
-            prepared.cases.extend_from_within(group.clone());
+            let start = prepared.margins.len();
             prepared.margins.extend_from_within(group.clone());
-            prepared.values.extend_from_within(group);
-            prepared.cases.extend(kept.iter().map(|i| cases[*i]));
-            prepared.margins.extend(kept.iter().map(|i| margins[*i]));
-            prepared
-                .values
-                .extend(kept.iter().map(|i| values[*i].clone()));
-            let cases = start..prepared.cases.len();
-            prepared.trials.push(PreparedTrial { cases, ..trial });
+            prepared.others.extend(group);
+            for i in kept {
+                prepared.margins.push(margins[i]);
+                prepared.others.push(own_cases + i);
+            }
+            let margins = start..prepared.margins.len();
+            prepared.trials.push(PreparedTrial { margins, ..trial });
         }
     }
 
     /// True if a triangle beside a group reports no hit where the group reports none, also where epsilons follow each
-    /// triangle's size. The sizes cost more than all else here, so they are computed last, and only where they matter.
+    /// triangle's size.
     fn is_left_out(
         &self,
-        case: &Case<F>,
+        made: &MadeCases<F>,
+        place: usize,
         margins: &KnobMargins<F>,
         group: &MeasuredGroup<'_, F>,
     ) -> bool {
@@ -152,11 +121,13 @@ impl<F: Scalar> Setting<'_, F> {
         if is_refused(margins) {
             return true;
         }
-        let of_group = group
-            .relative
-            .get_or_init(|| self.relative_margins(group.cases, group.margins));
-        let relative = self.relative_margins(slice::from_ref(case), slice::from_ref(margins));
-        is_covered(&relative[0], of_group)
+        let relative = |place: usize, margins| self.relative_to(made.sizes()[place], margins);
+        let of_group = group.relative.get_or_init(|| {
+            let all = group.places.clone().zip(group.margins);
+            all.map(|(place, margins)| relative(place, margins))
+                .collect()
+        });
+        is_covered(&relative(place, margins), of_group)
     }
 }
 

@@ -1,11 +1,11 @@
 //! Errors of the hits that remain: of t relative to itself, of the point in the scene's unit of length.
 
 use super::confidence::is_shown;
-use super::trials::Trial;
 use crate::arith::{Bounded, Exact, Float, Real, Vector};
-use crate::audit::{Histogram, values};
+use crate::audit::{Histogram, t_of};
 use crate::case::Case;
 use crate::kernel::Hit;
+use std::sync::OnceLock;
 
 named! {
     pub names
@@ -77,12 +77,23 @@ impl MaxError {
     }
 }
 
-/// The errors of what a kernel reports of a trial's first triangle, if that is a hit.
-pub fn errors_of<F: Float>(trial: &Trial<'_, F>) -> HitErrors {
-    let values = trial.values[0].as_ref();
-    values.map_or([None; Value::ALL.len()], |hit| {
-        hit_errors(&trial.cases[0], hit)
-    })
+/// A hit, and its errors once they are asked for.
+#[derive(Clone, Copy)]
+pub struct JudgedHit<'a, F: Float> {
+    /// The triangle and its ray, whose line crosses the plane.
+    pub case: &'a Case<F>,
+    /// The values that are reported.
+    pub hit: &'a Hit<F>,
+    /// The errors, which the same hit has in every pass.
+    pub errors: &'a OnceLock<HitErrors>,
+}
+
+impl<F: Float> JudgedHit<'_, F> {
+    /// Its errors.
+    pub fn errors(&self) -> HitErrors {
+        let of_hit = || hit_errors(self.case, self.hit);
+        *self.errors.get_or_init(of_hit)
+    }
 }
 
 /// The errors of a hit on a triangle whose plane the line crosses.
@@ -103,7 +114,7 @@ fn errors<F: Float, R: Real>(
 ) -> Option<HitErrors> {
     let lift = |x: F| number(x.to_f64());
     let (ray, triangle) = case.lift(lift);
-    let [exact_t, ..] = values(&ray, &triangle);
+    let exact_t = t_of(&ray, &triangle);
     let of_t = |t: F| -> Option<f64> {
         if !t.is_finite() {
             return Some(f64::INFINITY);

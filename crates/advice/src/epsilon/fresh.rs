@@ -44,13 +44,12 @@ pub struct Tried<F> {
 }
 
 impl<F> Tried<F> {
-    /// The results of epsilons with a name.
+    /// The results of epsilons with a name; no picture yet.
     pub(super) fn new(
         (name, epsilons): (String, Vec<F>),
         wrong: Vec<Trials>,
         cost: f64,
         of_hits: OfHits,
-        holes: Option<HoleShare>,
     ) -> Tried<F> {
         Tried {
             name,
@@ -60,7 +59,7 @@ impl<F> Tried<F> {
             errors: of_hits.errors,
             exceeded: of_hits.exceeded,
             doubles: of_hits.doubles,
-            holes,
+            holes: None,
         }
     }
 

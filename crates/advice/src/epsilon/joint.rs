@@ -1,12 +1,12 @@
 //! All knobs together: the counts at every combination of some values, and the cheapest of them.
 
-use super::errors::{MaxError, errors_of};
-use super::knob::KnobMargins;
+use super::errors::MaxError;
+use super::knob::{KnobMargins, MOST_KNOBS};
 use super::rays::{RayCount, WrongKind};
 use super::trials::{Pass, Setting, Trial};
 use crate::arith::Float;
 use crate::audit::Trials;
-use crate::engine::Merge;
+use crate::engine::{self, Merge};
 use crate::kernel::Scalar;
 use crate::suggest::nearest_name;
 
@@ -94,6 +94,9 @@ const PLATEAU: usize = 3;
 /// A point that costs at most this share more is as good: another seed may make it the cheapest.
 pub(super) const NEGLIGIBLE: f64 = 0.01;
 
+/// How many values of each knob accept margins; 0 of a knob that is not there.
+type Accepted = [usize; MOST_KNOBS];
+
 /// The values that are weighed for each knob, in order.
 pub struct KnobGrid<F> {
     values: Vec<Vec<F>>,
@@ -127,14 +130,22 @@ impl<F: Float> KnobGrid<F> {
         self.values.iter().map(|values| values.len() + 1).product()
     }
 
-    /// How many values of each knob accept margins.
-    fn accepted(&self, margins: &KnobMargins<F>) -> Vec<usize> {
-        let axes = self.values.iter().zip(margins);
-        axes.map(|(values, margin)| values.partition_point(|value| value <= margin))
-            .collect()
+    /// How many values of each knob accept margins; none if no value of some knob does, as then no point is a hit.
+    fn accepted(&self, margins: &KnobMargins<F>) -> Option<Accepted> {
+        let axes = || self.values.iter().zip(margins);
+        let is_refused =
+            |(values, margin): (&Vec<F>, &F)| values.first().is_none_or(|least| margin < least);
+        if axes().any(is_refused) {
+            return None;
+        }
+        let mut accepted = [0; MOST_KNOBS];
+        for (accepted, (values, margin)) in accepted.iter_mut().zip(axes()) {
+            *accepted = values.partition_point(|value| value <= margin);
+        }
+        Some(accepted)
     }
 
-    fn cell(&self, places: &[usize]) -> usize {
+    fn cell(&self, places: impl IntoIterator<Item = usize>) -> usize {
         let axes = self.values.iter().zip(places);
         axes.fold(0, |cell, (values, place)| cell * (values.len() + 1) + place)
     }
@@ -191,15 +202,23 @@ impl<F: Scalar> Joint<F> {
         };
         let add = |sums: &mut JointSums, trial: Trial<'_, F>| {
             sums.of[trial.count] += 1;
-            let terms = union(trial.margins.iter().map(|m| grid.accepted(m)).collect());
+            let boxes = trial.margins.iter();
+            let boxes = boxes.filter_map(|margins| grid.accepted(margins));
             let add_to = |cells: &mut Vec<i64>| {
                 cells.resize(grid.cells(), 0);
-                terms
-                    .iter()
-                    .for_each(|(sign, places)| cells[grid.cell(places)] += sign);
+                // Most rays have one triangle.
+                if trial.margins.len() == 1 {
+                    for places in boxes.clone() {
+                        cells[grid.cell(places)] += 1;
+                    }
+                    return;
+                }
+                for (sign, places) in union(boxes.clone()) {
+                    cells[grid.cell(places)] += sign;
+                }
             };
             add_to(&mut sums.cells[trial.count]);
-            let is_exceeded = |max: &MaxError| max.is_exceeded(&errors_of(&trial));
+            let is_exceeded = |max: &MaxError| max.is_exceeded(&trial.errors());
             let is_hit = setting.counts[trial.count].kind == WrongKind::Miss;
             if is_hit && max_error.is_some_and(is_exceeded) {
                 add_to(&mut sums.exceeded[trial.count]);
@@ -210,12 +229,7 @@ impl<F: Scalar> Joint<F> {
             cells,
             exceeded,
         } = setting.sum(pass, empty, add);
-        let all = |cells: Vec<Vec<i64>>| {
-            cells
-                .into_iter()
-                .map(|cells| accumulated(&grid, cells))
-                .collect()
-        };
+        let all = |cells: Vec<Vec<i64>>| engine::map(&cells, |cells| accumulated(&grid, cells));
         let (hits, exceeded) = (all(cells), max_error.map(|_| all(exceeded)));
         Joint {
             grid,
@@ -227,8 +241,7 @@ impl<F: Scalar> Joint<F> {
 
     /// The cell with the hits of a point: those that accept one value more than its place.
     fn cell_of(&self, places: &[usize]) -> usize {
-        let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
-        self.grid.cell(&above)
+        self.grid.cell(places.iter().map(|place| place + 1))
     }
 
     /// True if the hits that remain at a point have errors as small as is wanted, in each stratum.
@@ -244,22 +257,18 @@ impl<F: Scalar> Joint<F> {
     }
 
     /// The share of wrong answers of each count at a point; 0 of nothing.
-    fn shares(&self, counts: &[RayCount], places: &[usize]) -> Vec<f64> {
+    fn shares(&self, counts: &[RayCount], places: &[usize]) -> impl Iterator<Item = f64> {
         let cell = self.cell_of(places);
-        let wrong = counts
-            .iter()
-            .zip(&self.of)
-            .zip(&self.hits)
-            .map(|((count, of), hits)| {
-                let hits = hits.get(cell).copied().unwrap_or(0) as u64;
-                let wrong = if count.kind.is_wrong_if_refused() {
-                    of - hits
-                } else {
-                    hits
-                };
-                wrong as f64 / (*of).max(1) as f64
-            });
-        wrong.collect()
+        let sums = self.of.iter().zip(&self.hits);
+        counts.iter().zip(sums).map(move |(count, (of, hits))| {
+            let hits = hits.get(cell).copied().unwrap_or(0) as u64;
+            let wrong = if count.kind.is_wrong_if_refused() {
+                of - hits
+            } else {
+                hits
+            };
+            wrong as f64 / (*of).max(1) as f64
+        })
     }
 
     /// A point as good as the cheapest ([`NEGLIGIBLE`]); none if errors are larger everywhere. Of these points a
@@ -335,7 +344,7 @@ impl<F: Scalar> Joint<F> {
             .enumerate()
             .map(|(k, value)| place(k, *value))
             .collect::<Option<_>>()?;
-        let shares = self.shares(counts, &places);
+        let shares: Vec<f64> = self.shares(counts, &places).collect();
         let must_be_accurate = self.is_accurate(counts, &places);
         for (k, value) in to.iter().enumerate() {
             let mut moved = places.clone();
@@ -359,7 +368,7 @@ impl<F: Scalar> Joint<F> {
     ) -> bool {
         let (mut dearer, mut variance) = (0.0, 0.0);
         let here = self.shares(counts, places);
-        let all = counts.iter().zip(&self.of).zip(here.iter().zip(shares));
+        let all = counts.iter().zip(&self.of).zip(here.zip(shares));
         for ((count, of), (share, other)) in all {
             let (cost, more) = (costs.of(count.kind), share - other);
             dearer += cost * more;
@@ -370,33 +379,33 @@ impl<F: Scalar> Joint<F> {
 }
 
 /// The union of boxes from the origin as a sum of boxes with signs, by inclusion and exclusion.
-fn union(boxes: Vec<Vec<usize>>) -> Vec<(i64, Vec<usize>)> {
+fn union(boxes: impl Iterator<Item = Accepted>) -> Vec<(i64, Accepted)> {
     // One that lies in another adds nothing.
-    let inside = |a: &[usize], b: &[usize]| a.iter().zip(b).all(|(a, b)| a <= b);
-    let mut kept: Vec<Vec<usize>> = Vec::new();
+    let inside = |a: &Accepted, b: &Accepted| a.iter().zip(b).all(|(a, b)| a <= b);
+    let mut kept: Vec<Accepted> = Vec::new();
     for one in boxes {
         if !kept.iter().any(|other| inside(&one, other)) {
             kept.retain(|other| !inside(other, &one));
             kept.push(one);
         }
     }
-    let mut terms: Vec<(i64, Vec<usize>)> = Vec::new();
+    let mut terms: Vec<(i64, Accepted)> = Vec::with_capacity(kept.len());
     for one in kept {
-        let met = terms.iter().map(|(sign, other)| {
-            (
-                -sign,
-                one.iter().zip(other).map(|(a, b)| *a.min(b)).collect(),
-            )
-        });
-        let met: Vec<_> = met.collect();
-        terms.extend(met);
+        for i in 0..terms.len() {
+            let (sign, mut met) = terms[i];
+            for (met, own) in met.iter_mut().zip(one) {
+                *met = own.min(*met);
+            }
+            terms.push((-sign, met));
+        }
         terms.push((1, one));
     }
     terms
 }
 
 /// By cell, the sum over all cells at or above it in every direction.
-fn accumulated<F: Float>(grid: &KnobGrid<F>, mut cells: Vec<i64>) -> Vec<i64> {
+fn accumulated<F: Float>(grid: &KnobGrid<F>, cells: &[i64]) -> Vec<i64> {
+    let mut cells = cells.to_vec();
     let mut stride = 1;
     for values in grid.values.iter().rev() {
         let length = values.len() + 1;

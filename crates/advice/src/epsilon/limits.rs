@@ -317,8 +317,7 @@ mod tests {
             guards: [true; 3],
             margins: &margins,
             around: 0,
-            cases: &[],
-            values: &[],
+            first: None,
         };
         let own = |least_t: f64| {
             let largest = alone(&trial, 0, &[0.0, least_t, 0.0]);

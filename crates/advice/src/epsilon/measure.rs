@@ -1,9 +1,10 @@
 //! Measures epsilons on some rays: wrong answers by their margins, the errors of the hits that remain, and
 //! whether the kernel's own runs agree.
 
-use super::errors::{ErrorSums, MaxError, errors_of};
+use super::errors::{ErrorSums, MaxError};
 use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, alone, is_own};
+use super::prepared::Prepared;
 use super::proved::ProvedValue;
 use super::rays::{RayCount, WrongKind};
 use super::trials::{Pass, Setting, Trial, accepts, is_unknown};
@@ -163,7 +164,7 @@ impl WrongAnswers {
         if kind != WrongKind::Miss {
             return;
         }
-        let errors = errors_of(trial);
+        let errors = trial.errors();
         let attempts = attempts.iter().zip(&mut self.of_hits);
         for (_, sums) in attempts.filter(|(attempt, _)| trial.is_hit(&attempt.epsilons)) {
             let pairs = sums.errors[trial.count].iter_mut().zip(errors);
@@ -208,7 +209,7 @@ pub(super) fn measure<F: Scalar>(
     with_errors: usize,
     max_error: Option<&MaxError>,
     pass: Pass<'_>,
-    check: impl Fn(&[Case<F>], &[KnobMargins<F>]) -> Ran + Sync,
+    check: impl Fn(&Prepared<F>, &[KnobMargins<F>]) -> Ran + Sync,
 ) -> WrongAnswers {
     let empty = || WrongAnswers::new(attempts.len(), with_errors, setting.counts);
     let add = |sums: &mut WrongAnswers, trial: Trial<'_, F>| {
@@ -217,14 +218,31 @@ pub(super) fn measure<F: Scalar>(
             sums.add_errors(setting, attempts, max_error, &trial);
         }
     };
-    let look = |sums: &mut WrongAnswers, cases: &[Case<F>], margins: &[KnobMargins<F>]| {
-        sums.ran.merge(check(cases, margins));
+    let look = |sums: &mut WrongAnswers, part: &Prepared<F>, margins: &[KnobMargins<F>]| {
+        sums.ran.merge(check(part, margins));
     };
     setting.sum_with(pass, empty, add, look)
 }
 
-/// Runs the kernel at some epsilons on a chunk's cases; a fault if it does not do as their margins say.
+/// Runs the kernel at some epsilons on a part's cases, also those around groups; a fault if it does not do as their margins
+/// say.
 pub(super) fn differs<F: Scalar>(
+    setting: &Setting<'_, F>,
+    at: &[Vec<F>],
+    observer: &dyn Observer,
+) -> impl Fn(&Prepared<F>, &[KnobMargins<F>]) -> Ran + Sync {
+    let run = run_at(setting, at, observer);
+    move |part, margins| {
+        let cases = &part.made.chunk.cases;
+        let (own, others) = margins.split_at(cases.len());
+        let mut ran = run(cases, own);
+        ran.merge(run(&part.other_cases(), others));
+        ran
+    }
+}
+
+/// Runs the kernel at some epsilons on cases.
+fn run_at<F: Scalar>(
     setting: &Setting<'_, F>,
     at: &[Vec<F>],
     observer: &dyn Observer,
@@ -297,8 +315,7 @@ mod tests {
             guards: [true; 3],
             margins: &margins,
             around: 0,
-            cases: &[],
-            values: &[],
+            first: None,
         };
         let counts = [RayCount {
             rays: Rays::Stratum(Stratum::Edges),

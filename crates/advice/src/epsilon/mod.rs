@@ -17,10 +17,12 @@ mod fresh;
 mod joint;
 mod knob;
 mod limits;
+mod margins;
 mod measure;
 mod picture;
 mod prepared;
 mod proved;
+mod queue;
 mod race;
 mod rays;
 mod relative;
@@ -48,6 +50,7 @@ pub use rays::{RayCount, Rays, WrongKind, counts, counts_of};
 pub use relative::scale_free_form;
 pub use shared::SharedCases;
 pub use study::{
-    Elsewhere, SCALE_FREE, SceneStudy, cheapest, own_epsilons, study_scene, try_elsewhere,
+    Chosen, Elsewhere, SCALE_FREE, SceneStudy, cheapest, choose, own_epsilons, study_scene,
+    try_elsewhere, try_on_fresh,
 };
 pub use trials::{Pass, Setting, StudiedRays, Trial, fresh_seed};

@@ -5,6 +5,7 @@ use super::rays::{RayCount, Rays, WrongKind};
 use super::trials::Setting;
 use crate::arith::{Float, smallest_normal, three_digits};
 use crate::case::{DirectionLength, Scene};
+use crate::engine;
 use crate::family::Stratum;
 use crate::kernel::{Role, Scalar};
 use crate::prove::{self, Proof, Uses};
@@ -33,7 +34,7 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<ProvedValue<F>> {
     if !is_unit || setting.relative || scene.check_in::<F>().is_err() {
         return Vec::new();
     }
-    let of_knob = |(k, knob): (usize, &Knob)| {
+    let of_knob = |&(k, knob): &(usize, &Knob)| {
         let Knob::Gate(gate) = *knob else {
             return Vec::new();
         };
@@ -78,7 +79,8 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<ProvedValue<F>> {
             })
             .collect()
     };
-    setting.knobs.iter().enumerate().flat_map(of_knob).collect()
+    let knobs: Vec<(usize, &Knob)> = setting.knobs.iter().enumerate().collect();
+    engine::map(&knobs, of_knob).into_iter().flatten().collect()
 }
 
 /// Strictly beyond a bound, above it or below its negative, in few digits.

@@ -11,14 +11,17 @@ pub(super) fn relative<F: Float>(margin: F, unit: F) -> F {
         return margin;
     }
     let quotient = margin / unit;
-    if is_last_accepted(quotient, unit, margin) {
-        return quotient;
+    for ulps in [0, -1, 1] {
+        let epsilon = quotient.offset_ulps(ulps);
+        if is_last_accepted(epsilon, unit, margin) {
+            return epsilon;
+        }
     }
     F::largest_accepted(|e| *e * unit <= margin, || quotient)
 }
 
-/// True if `e * unit <= margin` for an epsilon that is no zero, and for none above it: as for most quotients, which
-/// need no search then.
+/// True if `e * unit <= margin` for an epsilon that is no zero, and for none above it: as for a quotient or a number beside
+/// it, so that no search is needed.
 fn is_last_accepted<F: Float>(epsilon: F, unit: F, margin: F) -> bool {
     if epsilon.is_zero() || !epsilon.is_finite() {
         return false;
@@ -28,31 +31,51 @@ fn is_last_accepted<F: Float>(epsilon: F, unit: F, margin: F) -> bool {
     next.is_finite() && epsilon * unit <= margin && margin < next * unit
 }
 
-/// The unit of a gate's margin on a case: L^p·|d|^q for a dimension (p, q). L is the triangle's
-/// longest edge; for t, whose error follows the distance from zero, it is the largest coordinate.
-///
-/// Computed in `f64` and rounded to the scalar; 1 where that is zero or infinite.
-pub(super) fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
-    let [o, d, a, b, c] = case.vectors().map(wide);
-    let length = if dimension == Dimension::new(1, -1) {
-        [o, a, b, c]
-            .iter()
-            .fold(0.0f64, |most, v| most.max(v.abs().max_element()))
-    } else {
+/// The sizes of a case, from which the units of its margins follow.
+#[derive(Clone, Copy)]
+pub(super) struct CaseSizes {
+    longest_edge: f64,
+    /// The largest coordinate of the origin and the vertices.
+    farthest: f64,
+    /// The length of the direction.
+    speed: f64,
+}
+
+impl CaseSizes {
+    pub(super) fn of<F: Float>(case: &Case<F>) -> CaseSizes {
+        let [o, d, a, b, c] = case.vectors().map(wide);
         let squares = [(a, b), (b, c), (c, a)].map(|(p, q)| p.distance_squared(q));
-        squares.into_iter().fold(0.0f64, f64::max).sqrt()
-    };
-    let speed = if dimension.direction == 0 {
-        1.0
-    } else {
-        d.length()
-    };
-    let unit = length.powi(dimension.length.into()) * speed.powi(dimension.direction.into());
-    let unit = F::from_f64(unit);
-    if unit.is_finite() && F::zero() < unit {
-        unit
-    } else {
-        F::from_f64(1.0)
+        CaseSizes {
+            longest_edge: squares.into_iter().fold(0.0f64, f64::max).sqrt(),
+            farthest: [o, a, b, c]
+                .iter()
+                .fold(0.0f64, |most, v| most.max(v.abs().max_element())),
+            speed: d.length(),
+        }
+    }
+
+    /// The unit of a gate's margin: L^p·|d|^q for a dimension (p, q). L is the triangle's longest edge; for t, whose error
+    /// follows the distance from zero, it is the largest coordinate.
+    ///
+    /// Computed in `f64` and rounded to the scalar; 1 where that is zero or infinite.
+    pub(super) fn unit<F: Float>(self, dimension: Dimension) -> F {
+        let length = if dimension == Dimension::T {
+            self.farthest
+        } else {
+            self.longest_edge
+        };
+        let speed = if dimension.direction == 0 {
+            1.0
+        } else {
+            self.speed
+        };
+        let unit = length.powi(dimension.length.into()) * speed.powi(dimension.direction.into());
+        let unit = F::from_f64(unit);
+        if unit.is_finite() && F::zero() < unit {
+            unit
+        } else {
+            F::from_f64(1.0)
+        }
     }
 }
 
@@ -67,11 +90,7 @@ pub fn scale_free_form(dimension: Dimension) -> Option<String> {
         return None;
     }
     let Dimension { length, direction } = dimension;
-    let base = if dimension == Dimension::new(1, -1) {
-        "M"
-    } else {
-        "L"
-    };
+    let base = if dimension == Dimension::T { "M" } else { "L" };
     let mut text = "e".to_owned();
     text.extend(power(base, length));
     match direction {
@@ -87,6 +106,10 @@ mod tests {
     use crate::arith::scale_by_power_of_two;
     use crate::case::{Case, Draw};
     use crate::kernel::{KERNELS, Scalar, Tunable};
+
+    fn scale<F: Float>(case: &Case<F>, dimension: Dimension) -> F {
+        CaseSizes::of(case).unit(dimension)
+    }
 
     /// A generic case near 1 whose coordinates are all multiplied by 2^`power`, and the direction too.
     fn scaled(index: u64, power: i32) -> Case<f64> {

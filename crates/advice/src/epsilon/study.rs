@@ -10,13 +10,13 @@ use super::knob::{Knob, KnobMargins};
 use super::limits::{KnobLimit, all_limits, between, limits, printed};
 use super::measure::{Attempt, OfHits, Ran, count_at, differs, measure};
 use super::picture::{HoleShare, holes};
-use super::prepared::Store;
+use super::prepared::{Prepared, Store};
 use super::proved::{ProvedValue, proved};
 use super::rays::Rays;
 use super::trials::{Pass, Setting};
 use crate::arith::Float;
 use crate::audit::{Row, Trials};
-use crate::case::{Case, Scene, SceneKind};
+use crate::case::{Scene, SceneKind};
 use crate::family::Stratum;
 use crate::kernel::Scalar;
 
@@ -57,8 +57,20 @@ pub struct Elsewhere {
 /// The name of epsilons that follow each case's size.
 pub const SCALE_FREE: &str = "scale-free";
 
-/// Runs a study, which also tries epsilons with names. The error is a disagreement between
-/// margins and the kernel's own run: a fault of this tool.
+/// The epsilons that the rays of a seed choose.
+pub struct Chosen<F> {
+    /// By knob: the cheapest together.
+    best: Vec<F>,
+    /// True if the errors of the hits that remain are as small as was wanted.
+    is_accurate: bool,
+    limits: Vec<KnobLimit<F>>,
+    /// The cheapest that follow each case's size, with their limits.
+    scale_free: Option<(Vec<F>, Vec<KnobLimit<F>>)>,
+    /// So many rays of each kind choose and try these.
+    form_rays: u64,
+}
+
+/// Runs a study: [`choose`], and [`try_on_fresh`].
 pub fn study_scene<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
@@ -66,6 +78,18 @@ pub fn study_scene<F: Scalar>(
     named: &[(String, Vec<F>)],
     pass: Pass<'_>,
 ) -> Result<SceneStudy<F>, String> {
+    let chosen = choose(setting, costs, max_error, pass, pass.count);
+    try_on_fresh(setting, chosen, costs, max_error, named, pass)
+}
+
+/// Chooses epsilons on the rays of a seed, and those that follow each case's size on so many of each kind.
+pub fn choose<F: Scalar>(
+    setting: &Setting<'_, F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    pass: Pass<'_>,
+    form_rays: u64,
+) -> Chosen<F> {
     let store = Store::default();
     let setting = &Setting {
         store: Some(&store),
@@ -76,14 +100,49 @@ pub fn study_scene<F: Scalar>(
     let on_grid = accurate
         .or_else(|| cheapest(setting, costs, None, pass))
         .expect("without a limit of errors some point is the cheapest");
-    let (best, found) = within_limits(setting, on_grid, costs, max_error, pass);
+    let (best, limits) = within_limits(setting, on_grid, costs, max_error, pass);
     let following = &Setting {
         relative: true,
         ..*setting
     };
-    let scale_free = cheapest(following, costs, max_error, pass)
-        .map(|on_grid| within_limits(following, on_grid, costs, max_error, pass));
-    // The rays of this seed were passed over for the last time.
+    let of_form = pass.of(form_rays);
+    let scale_free = cheapest(following, costs, max_error, of_form)
+        .map(|on_grid| within_limits(following, on_grid, costs, max_error, of_form));
+    Chosen {
+        best,
+        is_accurate,
+        limits,
+        scale_free,
+        form_rays,
+    }
+}
+
+/// Tries the chosen epsilons, and others with names, on the rays of the next seed. The error is a disagreement between
+/// margins and the kernel's own run: a fault of this tool.
+pub fn try_on_fresh<F: Scalar>(
+    setting: &Setting<'_, F>,
+    chosen: Chosen<F>,
+    costs: &Costs,
+    max_error: Option<&MaxError>,
+    named: &[(String, Vec<F>)],
+    pass: Pass<'_>,
+) -> Result<SceneStudy<F>, String> {
+    let Chosen {
+        best,
+        is_accurate,
+        limits: found,
+        scale_free,
+        form_rays,
+    } = chosen;
+    let store = Store::default();
+    let setting = &Setting {
+        store: Some(&store),
+        ..*setting
+    };
+    let following = &Setting {
+        relative: true,
+        ..*setting
+    };
     let fresh = pass.fresh();
     let vectors = with_other_names(&best, named);
     let epsilons: Vec<Vec<F>> = vectors.iter().map(|(_, all)| all.clone()).collect();
@@ -105,14 +164,21 @@ pub fn study_scene<F: Scalar>(
     }
     let curves = curves(setting, &best, &axes, fresh);
     let limits = prices.of_limits(found, at_limits);
-    let tried = all_tried(setting, costs, vectors, wrong, run.of_hits, fresh);
+    let pictures_of_all = pictures(setting, &epsilons, fresh);
+    let mut tried = all_tried(setting, costs, vectors, wrong, run.of_hits);
+    for (tried, holes) in tried.iter_mut().zip(pictures_of_all) {
+        tried.holes = holes;
+    }
     let mut relative = None;
     let mut relative_limits = Vec::new();
     if let Some((scale_free, limits)) = scale_free {
-        let form = try_scale_free(following, scale_free, costs, max_error, fresh);
+        let of_form = fresh.of(form_rays);
+        let form = try_scale_free(following, scale_free, costs, max_error, of_form);
         // Where no fixed values are accurate enough, a form that is needs no lower cost.
         if !is_accurate || is_worth_saying(setting.counts, costs, &form, &tried[0]) {
-            relative = Some(form);
+            let epsilons = [form.epsilons.clone()];
+            let holes = pictures(following, &epsilons, of_form).remove(0);
+            relative = Some(Tried { holes, ..form });
         }
         relative_limits = limits;
     }
@@ -163,24 +229,20 @@ fn attempts<F: Float>(
     attempts
 }
 
-/// The results of epsilons with names on fresh rays, from their wrong answers and the errors of their hits.
+/// The results of epsilons with names on fresh rays, from their wrong answers and the errors of their hits; no pictures yet.
 fn all_tried<F: Scalar>(
     setting: &Setting<'_, F>,
     costs: &Costs,
     vectors: Vec<(String, Vec<F>)>,
     wrong_answers: Vec<Vec<Trials>>,
     of_hits: Vec<OfHits>,
-    fresh: Pass<'_>,
 ) -> Vec<Tried<F>> {
-    let epsilons: Vec<Vec<F>> = vectors.iter().map(|(_, all)| all.clone()).collect();
     let mut sums = wrong_answers.into_iter().zip(of_hits);
-    let mut pictures = pictures(setting, &epsilons, fresh).into_iter();
     let mut tried = Vec::with_capacity(vectors.len());
     for vector in vectors {
         let (wrong, of_hits) = sums.next().expect("sums of each attempt");
-        let holes = pictures.next().flatten();
         let cost = costs.of_trials(setting.counts, &wrong);
-        tried.push(Tried::new(vector, wrong, cost, of_hits, holes));
+        tried.push(Tried::new(vector, wrong, cost, of_hits));
     }
     tried
 }
@@ -194,10 +256,10 @@ fn try_scale_free<F: Scalar>(
     fresh: Pass<'_>,
 ) -> Tried<F> {
     let attempt = [Attempt::new(epsilons.clone())];
-    let no_run = |_: &[Case<F>], _: &[KnobMargins<F>]| Ran::default();
+    let no_run = |_: &Prepared<F>, _: &[KnobMargins<F>]| Ran::default();
     let sums = measure(following, &attempt, 1, max_error, fresh, no_run);
     let vector = vec![(SCALE_FREE.to_owned(), epsilons)];
-    all_tried(following, costs, vector, sums.trials, sums.of_hits, fresh).remove(0)
+    all_tried(following, costs, vector, sums.trials, sums.of_hits).remove(0)
 }
 
 /// For each of some epsilons the share of holes in a picture, where shared edges are counted.
@@ -289,33 +351,31 @@ fn cheapest_of<F: Scalar>(
     joint.best(setting.counts, costs)
 }
 
-/// Tries the recommended epsilons and the proved values in other scenes. A value that is wrong there is taken out of what
+/// Tries the recommended epsilons and the proved values in another scene. A value that is wrong there is taken out of what
 /// is proved: its proof is about the scene's own kind of plane.
 pub fn try_elsewhere<F: Scalar>(
     setting: &Setting<'_, F>,
     study: &mut SceneStudy<F>,
-    scenes: &[Scene],
+    scene: &Scene,
     pass: Pass<'_>,
 ) {
-    for scene in scenes {
-        let mut attempts = vec![Attempt::new(study.best.clone())];
-        for found in &study.proved {
-            attempts.push(Attempt::at_proof(&found.bound, &study.best));
-        }
-        let setting = Setting {
-            scene: Some(scene),
-            store: None,
-            ..*setting
-        };
-        let mut wrong = count_at(&setting, &attempts, pass.fresh()).into_iter();
-        let of_best = wrong.next().expect("one attempt at least");
-        study.elsewhere.push(Elsewhere {
-            kind: scene.kind(),
-            wrong: of_best,
-        });
-        study.proved.retain(|found| {
-            let wrong = wrong.next().expect("an attempt for each proof");
-            wrong[found.bound.count].count == 0
-        });
+    let mut attempts = vec![Attempt::new(study.best.clone())];
+    for found in &study.proved {
+        attempts.push(Attempt::at_proof(&found.bound, &study.best));
     }
+    let setting = Setting {
+        scene: Some(scene),
+        store: None,
+        ..*setting
+    };
+    let mut wrong = count_at(&setting, &attempts, pass.fresh()).into_iter();
+    let of_best = wrong.next().expect("one attempt at least");
+    study.elsewhere.push(Elsewhere {
+        kind: scene.kind(),
+        wrong: of_best,
+    });
+    study.proved.retain(|found| {
+        let wrong = wrong.next().expect("an attempt for each proof");
+        wrong[found.bound.count].count == 0
+    });
 }

@@ -6,7 +6,7 @@ mod study;
 use super::candidates::grid;
 use super::confidence::{Ranks, ranks};
 use super::curves::curves;
-use super::errors::{HitErrors, errors_of};
+use super::errors::HitErrors;
 use super::joint::KnobGrid;
 use super::knob::KnobMargins;
 use super::limits::{all_limits, between};
@@ -91,7 +91,7 @@ impl Tuned {
             all.0.push(StoredStudy {
                 count: trial.count,
                 margins,
-                errors: errors_of(&trial),
+                errors: trial.errors(),
             });
         };
         self.setting()

@@ -1,17 +1,18 @@
 //! The trials of a kernel in a scene, or on other sources, and one pass over them.
 
+use super::errors::{HitErrors, JudgedHit};
 use super::knob::{Guards, Knob, KnobMargins, MOST_KNOBS};
 use super::prepared::{Prepared, PreparedTrial, Store};
+use super::queue::Queue;
 use super::rays::{RayCount, Rays, WrongKind, guards, guards_start};
-use super::relative::{relative, scale};
-use super::shared::{SharedCases, made};
+use super::shared::{MadeCases, SharedCases};
 use crate::arith::Float;
 use crate::audit::{Chunk, Row, Source, Stock};
 use crate::case::{Case, Parameters, Scene};
-use crate::engine::{self, Merge, Observer};
+use crate::engine::{self, Merge, Observer, Unobserved};
 use crate::family::{Grouping, Pixel, Stratum, add_ring, pixel, pixel_draw};
 use crate::judge::{Class, Obligation};
-use crate::kernel::{Hit, KernelIn, Scalar};
+use crate::kernel::{KernelIn, Scalar};
 use crate::mesh::SceneMesh;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -53,6 +54,14 @@ impl Pass<'_> {
             seed,
             count,
             observer,
+        }
+    }
+
+    /// At most so many of these rays of each kind.
+    pub fn of(self, most: u64) -> Self {
+        Pass {
+            count: self.count.min(most),
+            ..self
         }
     }
 
@@ -106,10 +115,8 @@ pub struct Trial<'a, F: Float> {
     pub margins: &'a [KnobMargins<F>],
     /// How many of the triangles are around the group and not of it.
     pub around: usize,
-    /// The triangles with their ray.
-    pub cases: &'a [Case<F>],
-    /// The values that a hit of each triangle would report.
-    pub values: &'a [Option<Hit<F>>],
+    /// The hit of its first triangle, if hits of such rays can be lost.
+    pub first: Option<JudgedHit<'a, F>>,
 }
 
 impl<F: Float> Trial<'_, F> {
@@ -118,6 +125,11 @@ impl<F: Float> Trial<'_, F> {
         self.margins
             .iter()
             .any(|margins| accepts(margins, epsilons))
+    }
+
+    /// The errors of the first triangle's hit, if hits of such rays can be lost.
+    pub fn errors(&self) -> HitErrors {
+        self.first.map_or(HitErrors::default(), |hit| hit.errors())
     }
 
     /// How many triangles of the group itself report a hit with these epsilons.
@@ -153,72 +165,61 @@ impl<F: Scalar> Setting<'_, F> {
         self.sum_with(pass, empty, add, |_, _, _| {})
     }
 
-    /// The same; `look` also sees each chunk's cases with their margins, those that are no trials included.
-    pub fn sum_with<S: Merge>(
+    /// The same; `look` also sees each chunk with all its margins, those that are of no trial included.
+    pub(super) fn sum_with<S: Merge>(
         &self,
         pass: Pass<'_>,
         empty: impl Fn() -> S + Sync,
         add: impl Fn(&mut S, Trial<'_, F>) + Sync,
-        look: impl Fn(&mut S, &[Case<F>], &[KnobMargins<F>]) + Sync,
+        look: impl Fn(&mut S, &Prepared<F>, &[KnobMargins<F>]) + Sync,
     ) -> S {
-        let mut total = empty();
+        let queue = self.queue(pass);
+        let add_chunk = |sums: &mut S, chunk: u64| {
+            let (queued, indices) = queue.at(chunk);
+            let place = (queued.group, queued.place, indices.start, indices.end);
+            let count = indices.end - indices.start;
+            let make = || self.prepare(&queued.source, queued.rays, indices);
+            let part = match self.store {
+                Some(store) => store.part(pass.seed, place, make),
+                None => Arc::new(make()),
+            };
+            let margins = match self.relative {
+                true => part.relative.get_or_init(|| self.all_relative(&part)),
+                false => &part.margins,
+            };
+            look(sums, &part, margins);
+            for trial in &part.trials {
+                add(
+                    sums,
+                    Trial {
+                        count: trial.count,
+                        guards: trial.guards,
+                        margins: &margins[trial.margins.clone()],
+                        around: trial.around,
+                        first: part.first_hit(trial),
+                    },
+                );
+            }
+            pass.observer.advance(count);
+        };
+        // All kinds of rays in one queue, so that threads wait for each other once a pass.
+        engine::sum(0..queue.chunks(), 1, &Unobserved, empty, |sums, chunks| {
+            chunks.for_each(|chunk| add_chunk(sums, chunk));
+        })
+    }
+
+    /// The sources of a pass, one after the other.
+    fn queue(&self, pass: Pass<'_>) -> Queue {
         let mut all: Vec<Rays> = self.counts.iter().map(|count| count.rays).collect();
         all.dedup_by(|a, b| a == b);
+        let mut queue = Queue::default();
         for (group, rays) in all.into_iter().enumerate() {
             for (place, source) in self.sources_of(rays, pass).into_iter().enumerate() {
-                let add = |sums: &mut S, indices: Range<u64>| {
-                    let place = (group, place, indices.start, indices.end);
-                    let make = || self.prepare(&source, rays, indices);
-                    let part = match self.store {
-                        Some(store) => store.part(pass.seed, place, make),
-                        None => Arc::new(make()),
-                    };
-                    let Prepared {
-                        cases,
-                        margins,
-                        relative,
-                        values,
-                        trials,
-                    } = &*part;
-                    let margins = match self.relative {
-                        true => relative.get_or_init(|| self.relative_margins(cases, margins)),
-                        false => margins,
-                    };
-                    look(sums, cases, margins);
-                    for trial in trials {
-                        let PreparedTrial {
-                            count,
-                            guards,
-                            around,
-                            cases: range,
-                        } = trial;
-                        let (count, guards, around) = (*count, *guards, *around);
-                        let (margins, cases) = (&margins[range.clone()], &cases[range.clone()]);
-                        let values = &values[range.clone()];
-                        add(
-                            sums,
-                            Trial {
-                                count,
-                                guards,
-                                margins,
-                                around,
-                                cases,
-                                values,
-                            },
-                        );
-                    }
-                };
-                let indices = 0..source.count::<F>();
-                total.merge(engine::sum(
-                    indices,
-                    source.chunk(),
-                    pass.observer,
-                    &empty,
-                    add,
-                ));
+                let count = source.count::<F>();
+                queue.add(rays, [group, place], source, count);
             }
         }
-        total
+        queue
     }
 
     /// The first indices of the rays of one kind; of stored cases all.
@@ -282,29 +283,29 @@ impl<F: Scalar> Setting<'_, F> {
 
     /// The cases of some indices, their margins, and the trials among them.
     fn prepare(&self, source: &Source, rays: Rays, indices: Range<u64>) -> Prepared<F> {
-        let chunk = match self.shared {
-            Some(shared) => shared.chunk(source, indices),
-            None => Arc::new(made(source, indices)),
+        let made = match self.shared {
+            Some(shared) => shared.part(source, indices),
+            None => Arc::new(MadeCases::new(source, indices)),
         };
-        let (margins, values) = self.margins(&chunk.cases);
-        let trials = self.trials(&chunk, rays);
-        let crossings = self.crossings(source, &chunk, rays);
-        let cases = match Arc::try_unwrap(chunk) {
-            Ok(chunk) => chunk.cases,
-            Err(shared) => shared.cases.clone(),
-        };
+        let (margins, values) = self.margins(&made.chunk.cases);
+        let mut hits = Vec::new();
+        if self.place(rays, WrongKind::Miss).is_some() {
+            hits.extend(values.into_iter().map(|hit| (hit, OnceLock::new())));
+        }
+        let trials = self.trials(&made.chunk, rays);
         let mut prepared = Prepared {
-            cases,
+            made,
             margins,
+            others: Vec::new(),
             relative: OnceLock::new(),
-            values,
+            hits,
             trials,
         };
-        self.add_crossings(crossings, &mut prepared);
+        self.add_crossings(rays, &mut prepared);
         let Prepared {
             margins, trials, ..
         } = &mut prepared;
-        trials.retain(|trial| !margins[trial.cases.clone()].iter().any(is_unknown));
+        trials.retain(|trial| !margins[trial.margins.clone()].iter().any(is_unknown));
         prepared
     }
 
@@ -347,69 +348,14 @@ impl<F: Scalar> Setting<'_, F> {
                 Obligation::MustMiss => hits,
                 Obligation::Free => None,
             };
-            let cases = i..i + 1;
             trials.extend(count.map(|count| PreparedTrial {
                 count,
                 guards,
-                cases,
+                first: i,
+                margins: i..i + 1,
                 around: 0,
             }));
         }
         trials
     }
-
-    /// Each case's margins of the knobs, -inf where another gate refuses, NaN where they are unknown; and what a
-    /// hit would report.
-    pub(super) fn margins(&self, cases: &[Case<F>]) -> (Vec<KnobMargins<F>>, Vec<Option<Hit<F>>>) {
-        let info = self.row.entry.info;
-        let gates = info.gates;
-        let epsilons = self.row.epsilons::<F>();
-        let mut all = vec![F::zero(); cases.len() * gates.len()];
-        let mut values = vec![None; cases.len()];
-        self.subject.margins(info, cases, &mut all, &mut values);
-        let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
-        let of_case = |i: usize| {
-            let row = &all[i * gates.len()..(i + 1) * gates.len()];
-            if row.iter().any(|margin| margin.is_nan()) {
-                return [F::from_f64(f64::NAN); MOST_KNOBS];
-            }
-            let refused = (0..gates.len()).any(|g| is_fixed(g) && row[g] < epsilons[g]);
-            let mut margins = [F::infinity(); MOST_KNOBS];
-            if refused {
-                return [-F::infinity(); MOST_KNOBS];
-            }
-            for (margin, knob) in margins.iter_mut().zip(self.knobs) {
-                *margin = match knob {
-                    Knob::Gate(gate) => row[*gate],
-                    Knob::LeastT => t_of(values[i].as_ref()),
-                };
-            }
-            margins
-        };
-        ((0..cases.len()).map(of_case).collect(), values)
-    }
-
-    /// Margins as multiples of each case's own size.
-    pub(super) fn relative_margins(
-        &self,
-        cases: &[Case<F>],
-        margins: &[KnobMargins<F>],
-    ) -> Vec<KnobMargins<F>> {
-        let mut all = margins.to_vec();
-        for (k, knob) in self.knobs.iter().enumerate() {
-            let dimension = knob.gate(self.row.entry.info.gates).dimension;
-            if dimension.has_unit() {
-                for (margins, case) in all.iter_mut().zip(cases) {
-                    margins[k] = relative(margins[k], scale(case, dimension));
-                }
-            }
-        }
-        all
-    }
-}
-
-/// The t that a hit would report; -inf if it is no number, for no comparison accepts that.
-fn t_of<F: Float>(values: Option<&Hit<F>>) -> F {
-    let t = values.and_then(|hit| hit.t);
-    t.filter(|t| !t.is_nan()).unwrap_or(-F::infinity())
 }

@@ -213,6 +213,7 @@ fn conflicts<F: Scalar>(study: &SceneStudy<F>) -> Vec<ConflictPart> {
             found
                 .clone()
                 .find(|other| other.knob == knob && other.count == limit.count)
+                .filter(|other| limit.one_in <= other.one_in)
         };
         if meet(low, high).is_some() {
             return None;

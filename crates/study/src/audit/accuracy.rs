@@ -194,6 +194,13 @@ impl<'a, F: Float> Measure<'a, F> {
     }
 }
 
+/// t where the line meets the plane.
+pub fn t_of<V: Vector>(ray: &Ray<V>, Triangle { a, b, c }: &Triangle<V>) -> V::Real {
+    let n = b.minus(a).cross(&c.minus(a));
+    let capital_d = ray.direction.dot(&n);
+    n.dot(&a.minus(&ray.origin)) / &capital_d
+}
+
 /// t and the weights of b and c where the line meets the plane.
 pub fn values<V: Vector>(ray: &Ray<V>, Triangle { a, b, c }: &Triangle<V>) -> [V::Real; 3] {
     let n = b.minus(a).cross(&c.minus(a));

@@ -39,8 +39,8 @@ mod trials;
 
 pub use crate::engine::{Observer, Unobserved};
 pub use crate::kernel::EpsilonText;
-pub use accuracy::values;
 pub use accuracy::{Accuracy, Errors};
+pub use accuracy::{t_of, values};
 pub use aimed::{Aimed, CLASSES};
 pub use attribution::attribute_with;
 pub use attribution::{Attribution, attribute, attribute_by_running};

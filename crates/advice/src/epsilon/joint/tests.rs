@@ -10,13 +10,13 @@ use crate::epsilon::Rays;
 fn a_union_counts_each_point_once() {
     let mut draw = Draw::new("union", 1, 0);
     for _ in 0..500 {
-        let boxes: Vec<Vec<usize>> = (0..draw.below(6) + 1)
-            .map(|_| (0..3).map(|_| draw.below(4)).collect())
+        let boxes: Vec<Accepted> = (0..draw.below(6) + 1)
+            .map(|_| [(); MOST_KNOBS].map(|()| draw.below(4)))
             .collect();
-        let terms = union(boxes.clone());
+        let terms = union(boxes.iter().copied());
         for point in 0..64usize {
             let point = [point / 16, point / 4 % 4, point % 4];
-            let holds = |corner: &Vec<usize>| point.iter().zip(corner).all(|(p, c)| p < c);
+            let holds = |corner: &Accepted| point.iter().zip(corner).all(|(p, c)| p < c);
             let sum: i64 = terms
                 .iter()
                 .filter(|(_, c)| holds(c))
@@ -193,12 +193,12 @@ fn counted(values: &[Vec<f32>], trials: &Trials, limited: bool) -> Joint<f32> {
         .for_each(|(count, _, many, _)| of[*count] += *many as u64);
     let mut sums = [(); 2].map(|()| vec![vec![-1; grid.cells()]; 4]);
     for places in all_places(values) {
-        let above: Vec<usize> = places.iter().map(|place| place + 1).collect();
+        let cell = grid.cell(places.iter().map(|place| place + 1));
         let hits = trials.hits(&at(values, &places));
         for (c, hits) in hits.into_iter().enumerate() {
             hits.into_iter()
                 .zip(&mut sums)
-                .for_each(|(n, sum)| sum[c][grid.cell(&above)] = n);
+                .for_each(|(n, sum)| sum[c][cell] = n);
         }
     }
     let [mut hits, mut exceeded] = sums;
@@ -441,13 +441,21 @@ fn cells_are_summed_over_all_above_them() {
         let all = all_places(&wide);
         assert_eq!(grid.cells(), all.len());
         let cells: Vec<i64> = all.iter().map(|_| draw.integer(-9, 9)).collect();
-        let sums = accumulated(&grid, cells.clone());
+        let sums = accumulated(&grid, &cells);
         for places in &all {
             let above = |other: &&Vec<usize>| places.iter().zip(*other).all(|(p, o)| p <= o);
-            let sum: i64 = all.iter().filter(above).map(|o| cells[grid.cell(o)]).sum();
-            assert_eq!(sums[grid.cell(places)], sum, "{lengths:?} {places:?}");
+            let sum: i64 = all
+                .iter()
+                .filter(above)
+                .map(|o| cells[grid.cell(o.iter().copied())])
+                .sum();
+            assert_eq!(
+                sums[grid.cell(places.iter().copied())],
+                sum,
+                "{lengths:?} {places:?}"
+            );
         }
-        assert!(accumulated(&grid, Vec::new()).is_empty());
+        assert!(accumulated(&grid, &[]).is_empty());
     }
 }
 
@@ -485,9 +493,12 @@ fn costs_are_words_between_commas() {
 #[test]
 fn a_grid_accepts_a_value_up_to_its_margin() {
     let grid = KnobGrid::new(vec![vec![-1.0f32, 0.0, 2.0], vec![0.0], vec![1.0, 3.0]]);
-    assert_eq!(grid.accepted(&[0.0, f32::INFINITY, 0.5]), [2, 1, 0]);
-    assert_eq!(grid.accepted(&[-f32::INFINITY, -0.5, 3.0]), [0, 0, 2]);
-    assert_eq!(grid.accepted(&[2.0, 0.0, 2.9]), [3, 1, 1]);
+    assert_eq!(grid.accepted(&[0.0, f32::INFINITY, 1.0]), Some([2, 1, 1]));
+    assert_eq!(grid.accepted(&[2.0, 0.0, 2.9]), Some([3, 1, 1]));
+    // Of which a value of one knob is accepted by none.
+    assert_eq!(grid.accepted(&[0.0, f32::INFINITY, 0.5]), None);
+    assert_eq!(grid.accepted(&[-f32::INFINITY, 0.0, 3.0]), None);
+    assert_eq!(grid.accepted(&[2.0, -0.5, 3.0]), None);
 }
 
 #[test]

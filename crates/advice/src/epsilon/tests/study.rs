@@ -1,8 +1,9 @@
 //! A whole study: what it chooses, names and tries on fresh rays.
 
 use super::super::measure::{Ran, differs, measure};
+use super::super::prepared::Prepared;
 use super::*;
-use crate::case::Case;
+
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// The number, the largest and the median of the errors in a histogram.
@@ -333,7 +334,7 @@ fn a_pass_tells_a_fault_of_any_chunk_and_the_errors_of_one_attempt() {
     let attempts = [Attempt::new(zero.clone())];
     let with_fault_at = |wanted: usize| {
         let looked = AtomicUsize::new(0);
-        let check = |_: &[Case<f32>], _: &[KnobMargins<f32>]| {
+        let check = |_: &Prepared<f32>, _: &[KnobMargins<f32>]| {
             let fault = (looked.fetch_add(1, Relaxed) == wanted).then(|| "off".to_owned());
             Ran {
                 fault,
@@ -383,9 +384,9 @@ fn a_run_that_is_not_what_its_margins_say_is_told() {
         let point = [epsilons[..tuned.knobs.len()].to_vec()];
         let differs = differs(&setting, &point, &Unobserved);
         let told = |change: &(dyn Fn(KnobMargins<f32>) -> KnobMargins<f32> + Sync)| {
-            let check = |cases: &[Case<f32>], margins: &[KnobMargins<f32>]| {
+            let check = |part: &Prepared<f32>, margins: &[KnobMargins<f32>]| {
                 differs(
-                    cases,
+                    part,
                     &margins
                         .iter()
                         .map(|margins| change(*margins))
