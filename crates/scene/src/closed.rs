@@ -75,7 +75,7 @@ pub fn closed(triangle: impl Fn(usize) -> Triangle<f64>, faces: &[u32]) -> Close
     }
 }
 
-/// An error with an edge, a part of which has a sum of counts that is not nothing.
+/// An error if the counts of edges do not cancel on some part of a line: an edge that begins or ends there.
 fn cancel(edges: &[Edge], is_nothing: impl Fn(i64) -> bool) -> Result<(), OpenEdge> {
     let mut lines: BTreeMap<Line, Vec<&Edge>> = BTreeMap::new();
     for edge in edges {
@@ -87,7 +87,7 @@ fn cancel(edges: &[Edge], is_nothing: impl Fn(i64) -> bool) -> Result<(), OpenEd
     open.map_or(Ok(()), |edge| Err(open_edge(edge)))
 }
 
-/// An edge of a line that begins or ends where the sum of counts is not nothing.
+/// An edge of a line at which the sum of counts begins to be more than nothing.
 fn open_part<'a>(edges: &[&'a Edge], is_nothing: impl Fn(i64) -> bool) -> Option<&'a Edge> {
     // Along a line points are in the order of their coordinates, or in the opposite one.
     let mut changes: Vec<(Point, i64, &Edge)> = Vec::new();
