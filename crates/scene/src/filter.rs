@@ -159,3 +159,47 @@ fn cross_permanent(a: &Vector, b: &Vector) -> Vector {
 pub fn size(a: &Vector) -> f64 {
     a[0].abs().max(a[1].abs()).max(a[2].abs())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_core::case::Draw;
+    use hairline_core::{Feature, Truth, truth};
+
+    #[test]
+    fn what_is_sure_is_true_of_rays_that_all_but_lie_in_the_plane() {
+        let (mut misses, mut crossings) = (0, 0);
+        for index in 0..200_000 {
+            let mut draw = Draw::new("flat", 1, index);
+            let [a, b, c]: [Vector; 3] = [(); 3].map(|()| draw.point());
+            // Near the plane but for rounding: the origin near a vertex, and the direction.
+            let near = 2f64.powi(-(draw.below(30) as i32));
+            let mut along = |size: f64| {
+                let [x, y] = [(); 2].map(|()| size * draw.symmetric::<f64>());
+                [0, 1, 2].map(|i| x * (b[i] - a[i]) + y * (c[i] - a[i]))
+            };
+            let (step, mut direction) = (along(near), along(1.0));
+            // In every other case a little more than that.
+            let lift = 2f64.powi(-(draw.below(50) as i32)) * draw.below(2) as f64;
+            let aside: Vector = draw.point();
+            direction = [0, 1, 2].map(|i| direction[i] + lift * aside[i]);
+            let ray = Ray::new([0, 1, 2].map(|i| a[i] + step[i]), direction);
+            let triangle = [a, b, c];
+            let Truth::Transversal(crossing) = truth(&ray.against(&triangle)) else {
+                continue;
+            };
+            match sort(&ray, size(&direction), &triangle) {
+                Sorted::Misses => {
+                    assert_eq!(crossing.feature, Feature::Outside, "{ray:?} {triangle:?}");
+                    misses += 1;
+                }
+                Sorted::Crosses => {
+                    assert_eq!(crossing.feature, Feature::Interior, "{ray:?} {triangle:?}");
+                    crossings += 1;
+                }
+                Sorted::Unsure => {}
+            }
+        }
+        assert!(1000 < misses && 100 < crossings, "{misses} {crossings}");
+    }
+}

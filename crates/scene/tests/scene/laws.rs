@@ -3,7 +3,7 @@
 use crate::drawn::{Drawn, Met, Reference, Style, compare, ray, soup};
 use hairline_core::Float;
 use hairline_core::case::Draw;
-use hairline_scene::{Hit, Ray};
+use hairline_scene::{Hit, Ray, Scene};
 
 fn faces_of(hits: &[Hit]) -> Vec<Vec<u32>> {
     hits.iter().map(|hit| hit.faces.clone()).collect()
@@ -155,4 +155,28 @@ fn check_large<F: Float>(count: u64) {
 fn larger_scenes_agree_with_a_walk_over_all_faces() {
     check_large::<f32>(150);
     check_large::<f64>(150);
+}
+
+#[test]
+fn points_that_are_an_ulp_apart_are_two_hits() {
+    // From (1, 0, 0) down to an edge, or to a vertex, that is one ulp higher in the second face.
+    let low = [[0.0, 0.0, -1.0], [2.0, 0.0, -1.0], [1.0, 5.0, -9.0]];
+    let high = [low[0], [2.0, 0.0, -1.0 + f64::EPSILON], low[2]];
+    let down = Ray::new([1.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
+    let at_vertex = Ray::new([2.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
+    for first in 0..3 {
+        let turned = |face: [[f64; 3]; 3]| [0, 1, 2].map(|i| face[(first + i) % 3]);
+        let vertices = [turned(low), turned(high)].concat();
+        for faces in [[[0, 1, 2], [3, 4, 5]], [[0, 2, 1], [4, 5, 3]]] {
+            let scene = Scene::new(&vertices, &faces).unwrap();
+            for ray in [down, at_vertex] {
+                assert_eq!(
+                    faces_of(&scene.hits(&ray).unwrap()),
+                    [[1], [0]],
+                    "{faces:?}"
+                );
+                assert_eq!(scene.nearest(&ray).unwrap().unwrap().faces, [1]);
+            }
+        }
+    }
 }
