@@ -2,85 +2,24 @@
 //!
 //! Microseconds a ray on one thread. `plain` is Möller and Trumbore in `f64` over the same tree in the same run, without
 //! any bound; the figure to watch is the exact nearest hit over it. Meshes and rays lie on the grid 2^-18, so that rays
-//! meet vertices, edges and planes exactly.
+//! meet vertices, edges and planes exactly. Turned, they fill all bits of `f64`, and rays miss their aims by roundings.
 
 mod meshes;
+mod rays;
 
+use hairline_core::Float;
 use hairline_core::case::Draw;
 use hairline_scene::{Ray, Scene, Triangle};
-use meshes::{Mesh, icosphere, on_grid, soup, terrain};
+use meshes::{Mesh, icosphere, soup, terrain, turned};
+use rays::KINDS;
 use std::hint::black_box;
 use std::time::Instant;
 
 const RAYS: usize = 20_000;
 
-type Maker = fn(&mut Draw, &Mesh) -> Ray<f32>;
-
-const KINDS: [(&str, Maker, f64); 6] = [
-    ("random", random, 1.25),
-    ("vertex", vertex, 2.0),
-    ("edge", edge, 2.0),
-    ("axis", axis, 2.0),
-    ("in plane", in_plane, 2.0),
-    ("grazing", grazing, 2.0),
-];
-
-fn ray(origin: [f64; 3], target: [f64; 3]) -> Ray<f32> {
-    let direction = [0, 1, 2].map(|i| target[i] - origin[i]);
-    Ray::new(origin.map(|x| x as f32), direction.map(|x| x as f32))
-}
-
-/// A point at some distance from the origin.
-fn around(draw: &mut Draw, distance: f64) -> [f64; 3] {
-    loop {
-        let point: [f64; 3] = draw.point();
-        let length = point.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if 0.1 < length && length < 1.0 {
-            return point.map(|x| on_grid(x * distance / length));
-        }
-    }
-}
-
-fn random(draw: &mut Draw, _: &Mesh) -> Ray<f32> {
-    let target = [(); 3].map(|()| 2.0 * draw.unit() - 1.0);
-    ray(around(draw, 3.5), target)
-}
-
-fn vertex(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
-    let [a, ..] = mesh.face(draw);
-    ray(around(draw, 2.0), a)
-}
-
-fn edge(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
-    let [a, b, _] = mesh.face(draw);
-    let middle = [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0);
-    ray(around(draw, 2.0), middle)
-}
-
-fn axis(draw: &mut Draw, _: &Mesh) -> Ray<f32> {
-    let [x, y] = [(); 2].map(|()| (draw.integer(-512, 512) as f64) / 512.0);
-    ray([x, y, 2.0], [x, y, 1.0])
-}
-
-/// In the plane of a face, exactly, and through it.
-fn in_plane(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
-    let [a, b, c] = mesh.face(draw);
-    let [k, l] = [(); 2].map(|()| (2 * draw.integer(-8, 8) + 1) as f64);
-    let at = |k: f64, l: f64| [0, 1, 2].map(|i| a[i] + k * (b[i] - a[i]) + l * (c[i] - a[i]));
-    ray(at(k, l), at(0.25, 0.5))
-}
-
-/// In the plane of a face but for rounding, and through it.
-fn grazing(draw: &mut Draw, mesh: &Mesh) -> Ray<f32> {
-    let [a, b, c] = mesh.face(draw);
-    let [k, l, m, n] = [(); 4].map(|()| draw.unit());
-    let at = |k: f64, l: f64| [0, 1, 2].map(|i| a[i] + k * (b[i] - a[i]) + l * (c[i] - a[i]));
-    ray(at(3.0 + 37.0 * k, 3.0 + 37.0 * l), at(0.45 * m, 0.45 * n))
-}
-
 /// The nearest face and its t, as a renderer would have them.
-fn plain(scene: &Scene<f32>, ray: &Ray<f32>) -> Option<(u32, f64)> {
-    let (o, d) = (ray.origin.map(f64::from), ray.direction.map(f64::from));
+fn plain<F: Float>(scene: &Scene<F>, ray: &Ray<F>) -> Option<(u32, f64)> {
+    let (o, d) = (ray.origin.map(F::to_f64), ray.direction.map(F::to_f64));
     let mut least = f64::INFINITY;
     let mut nearest = None;
     let visited = scene.visit(ray, |face, triangle| {
@@ -146,9 +85,14 @@ fn microseconds<T, const N: usize>(rays: &[T], mut work: [Work<T>; N]) -> [f64; 
     sums.map(|sum| sum * 1e6 / rays.len() as f64)
 }
 
-fn lines(name: &str, mesh: &Mesh) {
+fn scene_of<F: Float>(mesh: &Mesh) -> Scene<F> {
+    let vertices = mesh.vertices.iter().map(|vertex| vertex.map(F::from_f64));
+    Scene::new(&vertices.collect::<Vec<_>>(), &mesh.faces).expect("a mesh")
+}
+
+fn lines<F: Float>(name: &str, mesh: &Mesh) {
     let start = Instant::now();
-    let scene = Scene::new(&mesh.vertices, &mesh.faces).expect("a mesh");
+    let scene = scene_of::<F>(mesh);
     println!(
         "{name}: {} faces, built in {:.2} s",
         mesh.faces.len(),
@@ -156,7 +100,9 @@ fn lines(name: &str, mesh: &Mesh) {
     );
     for (kind, make, aim) in KINDS {
         let mut draw = Draw::new(kind, 1, 0);
-        let rays: Vec<Ray<f32>> = (0..RAYS).map(|_| make(&mut draw, mesh)).collect();
+        let rays = (0..RAYS).map(|_| make(&mut draw, mesh));
+        let rays = rays.map(|[o, d]| Ray::new(o.map(F::from_f64), d.map(F::from_f64)));
+        let rays: Vec<Ray<F>> = rays.collect();
         let hit = rays.iter().filter(|ray| plain(&scene, ray).is_some());
         let share = 100.0 * hit.count() as f64 / RAYS as f64;
         let [plain, nearest, all] = microseconds(
@@ -183,7 +129,7 @@ fn lines(name: &str, mesh: &Mesh) {
 
 /// Points inside and outside, at vertices, and near the surface.
 fn points(mesh: &Mesh) {
-    let scene = Scene::new(&mesh.vertices, &mesh.faces).expect("a mesh");
+    let scene = scene_of::<f32>(mesh);
     let mut draw = Draw::new("points", 1, 0);
     let mut anywhere = Vec::new();
     let mut near = Vec::new();
@@ -196,8 +142,13 @@ fn points(mesh: &Mesh) {
         vertices.push(a.map(|x| x as f32));
     }
     // The edges are compared once, at the first point.
+    let start = Instant::now();
     black_box(scene.locate(anywhere[0]).ok());
-    println!("points, µs each:");
+    println!(
+        "points, µs each ({} faces found closed in {:.2} s):",
+        mesh.faces.len(),
+        start.elapsed().as_secs_f64()
+    );
     for (name, points) in [
         ("anywhere", anywhere),
         ("near the surface", near),
@@ -239,8 +190,7 @@ fn crowds() {
     };
     println!("crowds, µs a face that is met:");
     let at = |i: i32| i as f32 / 256.0;
-    let flat = meshes::flat(316);
-    let flat = Scene::new(&flat.vertices, &flat.faces).expect("a mesh");
+    let flat = scene_of(&meshes::flat(316));
     let along = |y: f32, slope: f32| Ray::new([-1.0, y, 0.0], [1.0, slope, 0.0]);
     let rays = |make: &dyn Fn(i32) -> Ray<f32>| (0..100).map(make).collect::<Vec<_>>();
     line(
@@ -262,12 +212,10 @@ fn crowds() {
     let copies = Scene::new(&vertices, &[[0, 1, 2]; 1000]).expect("a mesh");
     let at_copies = |i: i32| Ray::new([0.1, 0.1 + at(i), 1.0], [0.01, 0.02, -1.0]);
     line("1000 copies of a face", &copies, &rays(&at_copies));
-    let fan = meshes::fan(1000);
-    let fan = Scene::new(&fan.vertices, &fan.faces).expect("a mesh");
+    let fan = scene_of(&meshes::fan(1000));
     let at_fan = |i: i32| Ray::new([0.5, at(i), 1.0], [-0.5, -at(i), -1.0]);
     line("1000 faces at a vertex", &fan, &rays(&at_fan));
-    let shrinking = meshes::shrinking(1000);
-    let shrinking = Scene::new(&shrinking.vertices, &shrinking.faces).expect("a mesh");
+    let shrinking = scene_of(&meshes::shrinking(1000));
     let at_shrinking = |i: i32| Ray::new([0.5, at(i) + 0.002, 1.0], [-0.5, -at(i) - 0.002, -1.0]);
     line("sizes from 1 to 2^-60", &shrinking, &rays(&at_shrinking));
 }
@@ -278,20 +226,24 @@ fn main() {
         .find(|word| !word.starts_with("--"));
     let is_chosen = |name| chosen.as_deref().is_none_or(|chosen| chosen == name);
     if is_chosen("icosphere") {
-        lines("icosphere", &icosphere(6));
+        lines::<f32>("icosphere", &icosphere(6));
     }
     if is_chosen("terrain") {
-        lines("terrain", &terrain(224));
+        lines::<f32>("terrain", &terrain(224));
     }
     if is_chosen("soup") {
-        lines("soup", &soup(100_000));
+        lines::<f32>("soup", &soup(100_000));
+    }
+    if is_chosen("turned") {
+        lines::<f64>("icosphere, turned", &turned(icosphere(6)));
+        lines::<f64>("terrain, turned", &turned(terrain(224)));
     }
     if is_chosen("points") {
         points(&icosphere(6));
     }
     // Only if it is asked for: 10^7 faces.
     if chosen.as_deref() == Some("large") {
-        lines("large", &terrain(2236));
+        lines::<f32>("large", &terrain(2236));
     }
     if is_chosen("crowds") {
         crowds();

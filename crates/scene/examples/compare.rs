@@ -1,17 +1,26 @@
 //! Compares the fast answers with the definition on as many random scenes as you like:
-//! `cargo run --release -p hairline-scene --example compare -- 1000000 7` (rays of each scalar, seed).
+//! `cargo run --release -p hairline-scene --example compare -- 100000 7` (rays of each scalar, seed). With the word `walk`
+//! behind them only the faces that the truths of single triangles say are met are asked by definition, which is much faster.
 
 #[path = "../tests/scene/drawn.rs"]
 mod drawn;
 
-use drawn::compare_many;
+use drawn::{Reference, compare_many};
 
 fn main() {
-    let mut numbers = std::env::args().skip(1).map(|word| word.parse::<u64>());
-    let rays = numbers
-        .next()
-        .map_or(100_000, |number| number.expect("a number of rays"));
-    let seed = numbers.next().map_or(1, |number| number.expect("a seed"));
-    println!("f32: no difference, {:?}", compare_many::<f32>(seed, rays));
-    println!("f64: no difference, {:?}", compare_many::<f64>(seed, rays));
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let number = |i: usize, default: u64| match words.get(i) {
+        Some(word) => word.parse().expect("a number"),
+        None => default,
+    };
+    let (rays, seed) = (number(0, 10_000), number(1, 1));
+    let reference = match words.get(2).map(String::as_str) {
+        None => Reference::Definition,
+        Some("walk") => Reference::Walk,
+        Some(word) => panic!("unknown reference '{word}': there is walk"),
+    };
+    let narrow = compare_many::<f32>(seed, rays, reference);
+    println!("f32: no difference, {narrow:?}");
+    let wide = compare_many::<f64>(seed, rays, reference);
+    println!("f64: no difference, {wide:?}");
 }

@@ -1,6 +1,6 @@
 //! A t that is known up to bounds.
 
-/// Two numbers between which an exact t lies; equal if t is that number.
+/// Two numbers between which an exact t lies, in units of the ray's direction; equal if t is that number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// At most t.

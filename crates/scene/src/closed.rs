@@ -7,6 +7,7 @@
 
 use crate::mesh::Triangle;
 use crate::winding::OpenEdge;
+use hairline_core::case::mix;
 use num_rational::BigRational as Rational;
 use num_traits::Zero;
 use std::cmp::Ordering;
@@ -35,38 +36,45 @@ struct Edge {
 
 /// The answer for triangles of these faces.
 pub fn closed(triangle: impl Fn(usize) -> Triangle<f64>, faces: &[u32]) -> Closed {
-    let mut sides: Vec<(u32, u8)> = Vec::with_capacity(3 * faces.len());
-    for place in 0..faces.len() as u32 {
-        sides.extend([0, 1, 2].map(|corner| (place, corner)));
-    }
-    let edge = |(place, corner): (u32, u8)| {
+    let edge = |place: u32, corner: usize| {
         let triangle = triangle(place as usize);
-        let [from, to] = [corner, (corner + 1) % 3].map(|i| triangle[i as usize]);
-        let is_forward = compare_points(&from, &to) == Ordering::Less;
-        Edge {
-            ends: if is_forward { [from, to] } else { [to, from] },
-            count: if is_forward { 1 } else { -1 },
-            face: faces[place as usize],
-        }
+        Edge::new(
+            triangle[corner],
+            triangle[(corner + 1) % 3],
+            faces[place as usize],
+        )
     };
-    sides.sort_by(|a, b| compare_ends(&edge(*a), &edge(*b)));
+    // Edges between the same two points have the same digest. In this form 10^7 faces need little memory.
+    let mut sides: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * faces.len());
+    for place in 0..faces.len() as u32 {
+        for corner in 0..3 {
+            let digest = edge(place, corner).digest();
+            sides.push((digest, place, corner as u8));
+        }
+    }
+    sides.sort_unstable();
     let mut signed = Vec::new();
     let mut unpaired = Vec::new();
-    for same in sides.chunk_by(|a, b| compare_ends(&edge(*a), &edge(*b)).is_eq()) {
-        let first = edge(same[0]);
-        let [from, to] = first.ends;
-        if compare_points(&from, &to).is_eq() {
-            continue;
-        }
-        let sum: i64 = same.iter().map(|side| edge(*side).count).sum();
-        if sum != 0 {
-            signed.push(Edge {
-                count: sum,
-                ..first
-            });
-        }
-        if same.len() % 2 == 1 {
-            unpaired.push(Edge { count: 1, ..first });
+    for alike in sides.chunk_by(|a, b| a.0 == b.0) {
+        let edges = alike
+            .iter()
+            .map(|(_, place, corner)| edge(*place, (*corner).into()));
+        let mut edges: Vec<Edge> = edges.collect();
+        edges.sort_by(compare_ends);
+        for same in edges.chunk_by(|a, b| compare_ends(a, b).is_eq()) {
+            if compare_points(&same[0].ends[0], &same[0].ends[1]).is_eq() {
+                continue;
+            }
+            let count: i64 = same.iter().map(|edge| edge.count).sum();
+            if count != 0 {
+                signed.push(Edge { count, ..same[0] });
+            }
+            if same.len() % 2 == 1 {
+                unpaired.push(Edge {
+                    count: 1,
+                    ..same[0]
+                });
+            }
         }
     }
     Closed {
@@ -75,7 +83,24 @@ pub fn closed(triangle: impl Fn(usize) -> Triangle<f64>, faces: &[u32]) -> Close
     }
 }
 
-/// An error with an edge, a part of which has a sum of counts that is not nothing.
+impl Edge {
+    fn new(from: Point, to: Point, face: u32) -> Edge {
+        let is_forward = compare_points(&from, &to) == Ordering::Less;
+        Edge {
+            ends: if is_forward { [from, to] } else { [to, from] },
+            count: if is_forward { 1 } else { -1 },
+            face,
+        }
+    }
+
+    /// Depends on the ends only. The two zeros are one number.
+    fn digest(&self) -> u64 {
+        let coordinates = self.ends.as_flattened().iter();
+        coordinates.fold(0, |digest, x| mix(digest ^ (x + 0.0).to_bits()))
+    }
+}
+
+/// An error if the counts of edges do not cancel on some part of a line: an edge that begins or ends there.
 fn cancel(edges: &[Edge], is_nothing: impl Fn(i64) -> bool) -> Result<(), OpenEdge> {
     let mut lines: BTreeMap<Line, Vec<&Edge>> = BTreeMap::new();
     for edge in edges {
@@ -87,7 +112,7 @@ fn cancel(edges: &[Edge], is_nothing: impl Fn(i64) -> bool) -> Result<(), OpenEd
     open.map_or(Ok(()), |edge| Err(open_edge(edge)))
 }
 
-/// An edge of a line that begins or ends where the sum of counts is not nothing.
+/// An edge of a line at which the sum of counts begins to be more than nothing.
 fn open_part<'a>(edges: &[&'a Edge], is_nothing: impl Fn(i64) -> bool) -> Option<&'a Edge> {
     // Along a line points are in the order of their coordinates, or in the opposite one.
     let mut changes: Vec<(Point, i64, &Edge)> = Vec::new();

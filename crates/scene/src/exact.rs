@@ -111,16 +111,12 @@ impl<I: Integer> Seen<I> {
         let mut first: Option<Fraction<I>> = None;
         let mut last: Option<Fraction<I>> = None;
         let mut touches = |t: Fraction<I>| {
-            if first
-                .as_ref()
-                .is_none_or(|first| t.compare(first) == Ordering::Less)
-            {
+            let is_before = |first: &Fraction<I>| t.compare(first) == Ordering::Less;
+            if first.as_ref().is_none_or(is_before) {
                 first = Some(t.clone());
             }
-            if last
-                .as_ref()
-                .is_none_or(|last| t.compare(last) == Ordering::Greater)
-            {
+            let is_behind = |last: &Fraction<I>| t.compare(last) == Ordering::Greater;
+            if last.as_ref().is_none_or(is_behind) {
                 last = Some(t);
             }
         };

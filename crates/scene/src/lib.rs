@@ -12,6 +12,24 @@
 //! assert_eq!(nearest.faces, [0, 1]);
 //! ```
 //!
+//! [`Scene::hits`] has all hits in exact order, [`Scene::values`] their numbers. For closed surfaces [`Scene::passages`] says
+//! where a ray crosses the surface, touches it or runs in it, and [`Scene::locate`] whether a point is inside.
+//!
+//! ```
+//! use hairline_scene::{Location, Ray, Scene, Winding};
+//!
+//! let vertices = [[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+//! let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+//! let tetrahedron = Scene::new(&vertices, &faces).unwrap();
+//! assert_eq!(tetrahedron.locate([0.25; 3]), Ok(Location::Off(Winding::Number(1))));
+//!
+//! // Along an edge: the ray runs in the surface, and is outside before and after.
+//! let along = Ray::new([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+//! let passages = tetrahedron.passages(&along).unwrap();
+//! assert!(passages[0].is_segment);
+//! assert_eq!(passages[0].crosses(), Ok(false));
+//! ```
+//!
 //! [`define`] is the definition, in rationals and over all faces. A [`Scene`] gives the same answers fast: a tree whose
 //! box test loses nothing, a filter in floats with bounds, and integers where the bounds do not tell.
 

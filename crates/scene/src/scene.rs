@@ -16,7 +16,7 @@ use hairline_core::Float;
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
-/// Faces that rays are held against.
+/// A mesh that rays are held against: 10^7 faces of `f32` need about 0.7 GB, and 1.5 GB while the tree is built.
 ///
 /// A face is a closed triangle: its edges and vertices belong to it. Without area it is a segment or a point, and is met
 /// like any other. A face that repeats another one is met where that is. A face with a NaN or an infinity is never met;

@@ -4,7 +4,7 @@ use hairline_core::case::Draw;
 use std::collections::HashMap;
 
 pub struct Mesh {
-    pub vertices: Vec<[f32; 3]>,
+    pub vertices: Vec<[f64; 3]>,
     pub faces: Vec<[u32; 3]>,
 }
 
@@ -12,7 +12,7 @@ impl Mesh {
     /// The vertices of a face, drawn.
     pub fn face(&self, draw: &mut Draw) -> [[f64; 3]; 3] {
         let corners = draw.pick(&self.faces);
-        corners.map(|i| self.vertices[i as usize].map(f64::from))
+        corners.map(|i| self.vertices[i as usize])
     }
 }
 
@@ -20,8 +20,21 @@ pub fn on_grid(x: f64) -> f64 {
     (x * 262_144.0).round() / 262_144.0
 }
 
-fn rounded(point: [f64; 3]) -> [f32; 3] {
-    point.map(|x| on_grid(x) as f32)
+fn rounded(point: [f64; 3]) -> [f64; 3] {
+    point.map(on_grid)
+}
+
+/// A mesh that is turned about two axes, so that its coordinates have full significands.
+pub fn turned(mesh: Mesh) -> Mesh {
+    let turned = |[x, y, z]: [f64; 3]| {
+        let [x, y] = [0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y];
+        let (sine, cosine) = 0.4f64.sin_cos();
+        [x, cosine * y - sine * z, sine * y + cosine * z]
+    };
+    Mesh {
+        vertices: mesh.vertices.into_iter().map(turned).collect(),
+        faces: mesh.faces,
+    }
 }
 
 /// An icosahedron whose faces are cut in four some times, 20·4^times faces.
@@ -104,7 +117,7 @@ pub fn flat(n: u32) -> Mesh {
     let mut vertices = Vec::new();
     for i in 0..=n {
         for j in 0..=n {
-            vertices.push([i as f32, j as f32, 0.0]);
+            vertices.push([i, j, 0].map(f64::from));
         }
     }
     let faces = cells(n);
@@ -116,7 +129,7 @@ pub fn fan(count: u32) -> Mesh {
     let corner = |i: u32| match i % 3 {
         0 => [0.0; 3],
         _ => {
-            let angle = i as f32;
+            let angle = f64::from(i);
             [angle.cos(), angle.sin(), (angle * 0.37).sin() * 0.1]
         }
     };
@@ -126,14 +139,14 @@ pub fn fan(count: u32) -> Mesh {
 /// Faces about the origin whose sizes are 60 powers of two.
 pub fn shrinking(count: u32) -> Mesh {
     let corner = |i: u32| {
-        let size = 0.77 * 2f32.powi(-((i / 3) as i32 % 60));
-        let angle = i as f32;
+        let size = 0.77 * 2f64.powi(-((i / 3) as i32 % 60));
+        let angle = f64::from(i);
         [angle.cos(), angle.sin(), (angle * 0.37).sin()].map(|x| size * x)
     };
     unwelded(count, corner)
 }
 
-fn unwelded(count: u32, corner: impl Fn(u32) -> [f32; 3]) -> Mesh {
+fn unwelded(count: u32, corner: impl Fn(u32) -> [f64; 3]) -> Mesh {
     Mesh {
         vertices: (0..3 * count).map(corner).collect(),
         faces: (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),

@@ -1,6 +1,6 @@
 //! The fast answers are those of the definition.
 
-use crate::drawn::{Met, compare_many};
+use crate::drawn::{Met, Reference, compare_many};
 
 fn check(met: Met) {
     let few = met.rays / 50;
@@ -13,10 +13,16 @@ fn check(met: Met) {
 
 #[test]
 fn hits_of_f32_scenes_are_those_of_the_definition() {
-    check(compare_many::<f32>(1, 3_000));
+    check(compare_many::<f32>(1, 2_000, Reference::Definition));
 }
 
 #[test]
 fn hits_of_f64_scenes_are_those_of_the_definition() {
-    check(compare_many::<f64>(1, 1_500));
+    check(compare_many::<f64>(1, 1_000, Reference::Definition));
+}
+
+#[test]
+fn more_hits_are_those_of_a_walk_over_all_faces() {
+    check(compare_many::<f32>(2, 4_000, Reference::Walk));
+    check(compare_many::<f64>(2, 4_000, Reference::Walk));
 }

@@ -1,9 +1,9 @@
 //! Laws that need no definition, and larger scenes against a walk over all faces.
 
-use crate::drawn::{Drawn, Style, ray, soup};
+use crate::drawn::{Drawn, Met, Reference, Style, compare, ray, soup};
+use hairline_core::Float;
 use hairline_core::case::Draw;
-use hairline_core::{Case, Float, truth};
-use hairline_scene::{Hit, Ray, define};
+use hairline_scene::{Hit, Ray, Scene};
 
 fn faces_of(hits: &[Hit]) -> Vec<Vec<u32>> {
     hits.iter().map(|hit| hit.faces.clone()).collect()
@@ -133,9 +133,8 @@ pub fn large_soup<F: Float>(draw: &mut Draw, style: Style) -> Drawn<F> {
     Drawn { vertices, faces }
 }
 
-/// The definition over the faces that `truth` says are met.
 fn check_large<F: Float>(count: u64) {
-    let mut hits = 0;
+    let mut met = Met::default();
     for index in 0..count {
         let mut draw = Draw::new("large", 1, index);
         let mut style = Style::draw::<F>(&mut draw);
@@ -143,45 +142,41 @@ fn check_large<F: Float>(count: u64) {
         style.exponent = style.exponent.min(F::MAX_EXPONENT - 6);
         style.reach = 10;
         let mesh = large_soup::<F>(&mut draw, style);
-        let (scene, triangles) = (mesh.scene(), mesh.triangles());
+        let scene = mesh.scene();
         for _ in 0..4 {
             let ray = ray(&mut draw, style, &mesh);
-            let met = |face: &u32| {
-                let case = Case::<F>::new(ray.origin, ray.direction, triangles[*face as usize]);
-                truth(&case.on(ray.t_min, ray.t_max)).hits_closed() == Some(true)
-            };
-            let met: Vec<u32> = (0..triangles.len() as u32).filter(met).collect();
-            let some: Vec<_> = met.iter().map(|face| triangles[*face as usize]).collect();
-            let Ok(defined) = define(&some, &ray) else {
-                continue;
-            };
-            let expected: Vec<Vec<u32>> = defined
-                .iter()
-                .map(|hit| hit.faces.iter().map(|i| met[*i as usize]).collect())
-                .collect();
-            assert_eq!(
-                faces_of(&scene.hits(&ray).unwrap()),
-                expected,
-                "{index} {ray:?}"
-            );
-            let nearest = scene.nearest(&ray).unwrap().map(|nearest| nearest.faces);
-            let least = defined.first().map(|hit| hit.from.clone());
-            let mut first: Vec<u32> = defined
-                .iter()
-                .zip(&expected)
-                .filter(|(hit, _)| Some(&hit.from) == least.as_ref())
-                .flat_map(|(_, faces)| faces.clone())
-                .collect();
-            first.sort();
-            assert_eq!(nearest.unwrap_or_default(), first, "{index} {ray:?}");
-            hits += expected.len();
+            compare(&mesh, &scene, &ray, Reference::Walk, &mut met);
         }
     }
-    assert!(count as usize * 2 < hits, "{hits}");
+    assert!(2 * met.rays < met.hits, "{met:?}");
 }
 
 #[test]
 fn larger_scenes_agree_with_a_walk_over_all_faces() {
     check_large::<f32>(150);
     check_large::<f64>(150);
+}
+
+#[test]
+fn points_that_are_an_ulp_apart_are_two_hits() {
+    // From (1, 0, 0) down to an edge, or to a vertex, that is one ulp higher in the second face.
+    let low = [[0.0, 0.0, -1.0], [2.0, 0.0, -1.0], [1.0, 5.0, -9.0]];
+    let high = [low[0], [2.0, 0.0, -1.0 + f64::EPSILON], low[2]];
+    let down = Ray::new([1.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
+    let at_vertex = Ray::new([2.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
+    for first in 0..3 {
+        let turned = |face: [[f64; 3]; 3]| [0, 1, 2].map(|i| face[(first + i) % 3]);
+        let vertices = [turned(low), turned(high)].concat();
+        for faces in [[[0, 1, 2], [3, 4, 5]], [[0, 2, 1], [4, 5, 3]]] {
+            let scene = Scene::new(&vertices, &faces).unwrap();
+            for ray in [down, at_vertex] {
+                assert_eq!(
+                    faces_of(&scene.hits(&ray).unwrap()),
+                    [[1], [0]],
+                    "{faces:?}"
+                );
+                assert_eq!(scene.nearest(&ray).unwrap().unwrap().faces, [1]);
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Passages and locations are those of winding numbers from solid angles; open surfaces name an edge.
 
 use crate::solids::{Faces, cube, cut_cube, scene, solids, turned, winding};
+use hairline_core::arith::scale_by_power_of_two;
 use hairline_core::case::Draw;
 use hairline_scene::{Location, OpenEdge, Passage, Ray, Winding};
 
@@ -20,51 +21,122 @@ fn gaps(passages: &[Passage]) -> Vec<f64> {
     [first].into_iter().chain(between).chain(last).collect()
 }
 
+/// How many passages of some lines crossed, touched or ran in the surface.
+#[derive(Debug, Default)]
+struct Counts {
+    crossings: u64,
+    touches: u64,
+    segments: u64,
+}
+
+/// Compares the passages of a line with the windings between them.
+fn check_line(name: &str, faces: &Faces, [origin, direction]: [[f64; 3]; 2], counts: &mut Counts) {
+    let line = Ray::new(origin, direction).on(f64::NEG_INFINITY, f64::INFINITY);
+    let passages = scene(faces).passages(&line).unwrap();
+    let at = |t: f64| [0, 1, 2].map(|i| origin[i] + t * direction[i]);
+    let windings = gaps(&passages).into_iter().map(|t| winding(faces, at(t)));
+    let windings: Vec<i64> = windings.collect();
+    for (k, passage) in passages.iter().enumerate() {
+        let about = || format!("{name} {origin:?} {direction:?} {passage:?} {faces:?}");
+        let [before, after] = [windings[k], windings[k + 1]];
+        let change = Winding::Number(after - before);
+        assert_eq!(passage.change, Ok(change), "{}", about());
+        let around = [before, after].map(Winding::Number);
+        assert_eq!(passage.around, Ok(around), "{}", about());
+        assert_eq!(passage.crosses(), Ok(before != after));
+        counts.segments += u64::from(passage.is_segment);
+        counts.touches += u64::from(before == after);
+        counts.crossings += u64::from(before != after);
+    }
+}
+
 #[test]
 fn windings_around_passages_are_those_of_solid_angles() {
-    let (mut crossings, mut touches, mut segments) = (0, 0, 0);
+    let mut counts = Counts::default();
     for (name, faces) in solids() {
-        let scene = scene(&faces);
-        assert_eq!(scene.closed().oriented, Ok(()), "{name}");
-        assert_eq!(scene.closed().even, Ok(()), "{name}");
+        let closed = *scene(&faces).closed();
+        assert_eq!((closed.oriented, closed.even), (Ok(()), Ok(())), "{name}");
         for index in 0..1500 {
             let mut draw = Draw::new("passages", 1, index);
-            let (origin, direction) = (lattice(&mut draw, 7), lattice(&mut draw, 3));
-            if direction == [0.0; 3] {
-                continue;
-            }
-            let line = Ray::new(origin, direction).on(f64::NEG_INFINITY, f64::INFINITY);
-            let passages = scene.passages(&line).unwrap();
-            let at = |t: f64| [0, 1, 2].map(|i| origin[i] + t * direction[i]);
-            let windings: Vec<i64> = gaps(&passages)
-                .into_iter()
-                .map(|t| winding(&faces, at(t)))
-                .collect();
-            for (k, passage) in passages.iter().enumerate() {
-                let about = || format!("{name} {origin:?} {direction:?} {passage:?}");
-                let [before, after] = [windings[k], windings[k + 1]];
-                assert_eq!(
-                    passage.change,
-                    Ok(Winding::Number(after - before)),
-                    "{}",
-                    about()
-                );
-                let around = [before, after].map(Winding::Number);
-                assert_eq!(passage.around, Ok(around), "{}", about());
-                assert_eq!(passage.crosses(), Ok(before != after));
-                segments += usize::from(passage.is_segment);
-                if before == after {
-                    touches += 1;
-                } else {
-                    crossings += 1;
-                }
+            let line = [lattice(&mut draw, 7), lattice(&mut draw, 3)];
+            if line[1] != [0.0; 3] {
+                check_line(name, &faces, line, &mut counts);
             }
         }
     }
+    let Counts {
+        crossings,
+        touches,
+        segments,
+    } = counts;
     assert!(
         3000 < crossings && 300 < touches && 300 < segments,
-        "{crossings} {touches} {segments}"
+        "{counts:?}"
     );
+}
+
+#[test]
+fn windings_of_tetrahedra_that_share_lattice_points_are_those_of_solid_angles() {
+    let mut counts = Counts::default();
+    for index in 0..2000 {
+        let mut draw = Draw::new("tetrahedra", 1, index);
+        let mut faces = Faces::new();
+        // Some without volume, some inside out, some in one plane.
+        for _ in 0..1 + draw.below(4) {
+            let [a, b, c, d] = [(); 4].map(|()| lattice(&mut draw, 2));
+            faces.extend([[a, b, c], [a, c, d], [a, d, b], [b, d, c]]);
+        }
+        assert_eq!(scene(&faces).closed().oriented, Ok(()), "{faces:?}");
+        for _ in 0..6 {
+            let line = [lattice(&mut draw, 3), lattice(&mut draw, 2)];
+            if line[1] != [0.0; 3] {
+                check_line("tetrahedra", &faces, line, &mut counts);
+            }
+        }
+    }
+    let Counts {
+        crossings,
+        touches,
+        segments,
+    } = counts;
+    assert!(
+        3000 < crossings && 300 < touches && 100 < segments,
+        "{counts:?}"
+    );
+}
+
+#[test]
+fn changes_do_not_depend_on_sizes_or_on_the_names_of_axes() {
+    for (name, faces) in solids() {
+        for index in 0..150 {
+            let mut draw = Draw::new("passages", 2, index);
+            let (origin, direction) = (lattice(&mut draw, 4), lattice(&mut draw, 3));
+            if direction == [0.0; 3] {
+                continue;
+            }
+            let changes = |faces: &Faces, origin: [f64; 3], direction: [f64; 3]| {
+                let passages = scene(faces).passages(&Ray::new(origin, direction)).unwrap();
+                let changes = passages
+                    .into_iter()
+                    .map(|passage| (passage.faces, passage.change));
+                changes.collect::<Vec<_>>()
+            };
+            let expected = changes(&faces, origin, direction);
+            // The ray is moved on other axes where others come first; and no size is too large or too small.
+            for [power, turns] in [[0, 1], [0, 2], [500, 0], [-500, 1], [1000, 2], [-1070, 0]] {
+                let moved = |mut point: [f64; 3]| {
+                    point.rotate_left(turns as usize);
+                    point.map(|x| scale_by_power_of_two(x, power))
+                };
+                let solid: Faces = faces.iter().map(|face| face.map(moved)).collect();
+                let found = changes(&solid, moved(origin), moved(direction));
+                assert_eq!(
+                    found, expected,
+                    "{name} {power} {turns} {origin:?} {direction:?}"
+                );
+            }
+        }
+    }
 }
 
 #[test]
