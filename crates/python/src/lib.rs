@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! arrays ──► truths ──────────────► array          hairline.truth
+//! arrays ──► scene ───────────────► arrays         hairline.Scene
 //! function ──► kernel ──► audit ──► record         hairline.audit, .assert_conforms
 //! words ──► hairline::cli ────────► exit code      the command
 //! ```
@@ -11,6 +12,7 @@
 
 mod audit;
 mod kernel;
+mod scene;
 mod truths;
 
 use hairline::internals::arith::FloatEnvironment;
@@ -28,6 +30,8 @@ mod _hairline {
     use super::kernel::case;
     #[pymodule_export]
     use super::run;
+    #[pymodule_export]
+    use super::scene::{ExactScene, judgements};
     #[pymodule_export]
     use super::truths::{names, truth};
 }
