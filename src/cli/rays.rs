@@ -12,6 +12,8 @@ use super::flags::find_scalar;
 use super::input::read_mesh;
 use super::output::OutputArguments;
 use crate::arith::ScalarName;
+use crate::case::Case;
+use crate::corpus::lines::AnyCase;
 use crate::files::InputError;
 use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
@@ -43,9 +45,10 @@ pub struct RaysArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["rays", "answers"])]
     points: Option<String>,
 
-    /// f32 or f64: what the numbers of mesh and rays are rounded to first
-    #[arg(long, value_name = "SCALAR", default_value = "f64")]
-    scalar: String,
+    /// f32 or f64: what the numbers of mesh and rays are rounded to first [default: f64; for --answers the one in which fewer
+    /// are wrong]
+    #[arg(long, value_name = "SCALAR")]
+    scalar: Option<String>,
 
     /// Threads [default: all cores]
     #[arg(long, value_name = "N")]
@@ -58,32 +61,40 @@ pub struct RaysArguments {
 /// Runs the command.
 pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
     set_threads(arguments.threads)?;
-    match find_scalar(&arguments.scalar)? {
-        ScalarName::F32 => run_in::<f32>(arguments),
-        ScalarName::F64 => run_in::<f64>(arguments),
-    }
-}
-
-fn run_in<F: Scalar>(arguments: &RaysArguments) -> Result<Status, Failure> {
-    let is_all_there = [&arguments.rays, &arguments.ray, &arguments.points];
-    if is_all_there.iter().all(|given| given.is_none()) {
+    let given = [&arguments.rays, &arguments.ray, &arguments.points];
+    if given.iter().all(|given| given.is_none()) {
         return Err(Failure::usage(
             "which rays? Give a file of them, or one as --ray \"0,0,5 0,0,-1\"; --points FILE asks if points are inside",
         ));
     }
+    let scalar = arguments.scalar.as_deref().map(find_scalar).transpose()?;
     let mesh = read_mesh(&arguments.mesh, arguments.output.quiet)?;
-    let scene = scene::<F>(&mesh)?;
+    if let Some(answers) = &arguments.answers {
+        return judged::run(arguments, &mesh, answers, scalar);
+    }
+    match scalar {
+        Some(ScalarName::F32) => run_in::<f32>(arguments, &mesh),
+        Some(ScalarName::F64) | None => run_in::<f64>(arguments, &mesh),
+    }
+}
+
+fn run_in<F: Scalar>(arguments: &RaysArguments, mesh: &Mesh) -> Result<Status, Failure>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let scene = scene::<F>(mesh)?;
     if let Some(text) = &arguments.ray {
-        return one::run(arguments, &mesh, &scene, read::ray_of_words::<F>(text)?);
+        return one::run(arguments, mesh, &scene, read::ray_of_words::<F>(text)?);
     }
     if let Some(file) = &arguments.points {
         return points::run(arguments, &scene, &read::points::<F>(file)?);
     }
-    let file = arguments.rays.as_deref().unwrap_or_default();
-    let rays = read::rays::<F>(file)?;
-    match &arguments.answers {
-        Some(answers) => judged::run(arguments, &mesh, &scene, &rays, answers),
-        None => found::run(arguments, &scene, &rays),
+    found::run(arguments, &scene, &read::rays::<F>(arguments.rays_file())?)
+}
+
+impl RaysArguments {
+    fn rays_file(&self) -> &str {
+        self.rays.as_deref().unwrap_or_default()
     }
 }
 

@@ -99,7 +99,7 @@ fn without_expectations_every_disagreement_fails_and_names_its_case_and_command(
          hairline.expectations.toml.lock; commit both\n",
         "moller-trumbore (source) f32 tiny: false-miss of interior/front/within: ",
         ", expected none\n    hairline explain 'tiny@3/f32/-/1/",
-        "\nof interior/back/within: where the line meets the triangle, ",
+        "\nA class, as interior/back/within: where the line meets the triangle, ",
         " wrong answers of moller-trumbore",
         ", and no file says which are known\n",
         "\nA short case: ",
@@ -403,7 +403,9 @@ fn what_no_longer_happens_is_stale_with_its_line_and_its_reason() {
     );
     // Entries are no cases.
     assert!(
-        said.contains(" known findings (each disagreement is of a kernel, a family and a class)"),
+        said.contains(
+            " known findings (a disagreement is a kind of wrong answer in a family and a class)"
+        ),
         "{said}"
     );
     assert!(

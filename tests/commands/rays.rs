@@ -100,6 +100,10 @@ fn answers_are_judged_by_kind() {
     }
     let wrong = judged("0,5\nnone\n2,1\n", 1);
     assert!(wrong.starts_with("3 of 3 answers are wrong "), "{wrong}");
+    assert!(
+        wrong.contains(" 2 nearest hits are lost: missed, or another face is answered. "),
+        "{wrong}"
+    );
     for kind in [
         " lost 1 - - ",
         " farther face 1 0.530 0.530 ",
@@ -108,11 +112,60 @@ fn answers_are_judged_by_kind() {
         assert!(wrong.contains(kind), "{kind}: {wrong}");
     }
     assert!(
-        wrong.contains("ray 0: face 0, 0.530 longest edges behind; the nearest is face 3"),
+        wrong.contains(
+            "ray 0: the nearest is face 3; answered face 0, 0.530 longest edges behind it"
+        ),
         "{wrong}"
     );
     let late = judged("3,4.5\n1,4\n-1\n", 1);
     assert!(late.contains(" wrong t 1 0.177 0.177 "), "{late}");
+    let early = judged("3,4\n1,4\n-1\n", 1);
+    assert!(
+        early.contains("answered face 3, 0.177 longest edges in front of it"),
+        "{early}"
+    );
+    for endless in ["3,inf\n1,4\n-1\n", "3,nan\n1,4\n-1\n"] {
+        assert!(judged(endless, 1).contains(" wrong t 1 - - "));
+    }
+}
+
+#[test]
+fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
+    let folder = folder("rays-guessed");
+    // Ten rays onto the first face of a square, near its diagonal, and the face on the other side.
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+    fs::write(folder.join("t.obj"), square).unwrap();
+    let rays: String = (1..=10)
+        .map(|i| format!("0.{i:02}5,0.{i:02},1,0,0,-1\n"))
+        .collect();
+    fs::write(folder.join("r.csv"), rays).unwrap();
+    let judged = |answers: &str, more: &[&str], code: i32| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+        flat(&ends(&folder, &[&words, more].concat(), code).0)
+    };
+    let from_one = judged(&"1\n".repeat(10), &[], 1);
+    assert!(
+        from_one.contains("The faces are numbered otherwise: with -1 most wrong ones are right."),
+        "{from_one}"
+    );
+    // Numbers that only f32 rounds: the ray starts an ulp of f64 beside the square.
+    fs::write(folder.join("r.csv"), "1.0000000000000002,0.5,1,0,0,-1\n").unwrap();
+    let in_f32 = judged("0,1\n", &[], 0);
+    assert!(in_f32.starts_with("None of 1 answer is wrong "), "{in_f32}");
+    // An edge away: only one of the scalars can be meant.
+    fs::write(folder.join("r.csv"), "16777217,0.5,1,-16777215,0,-1\n").unwrap();
+    let guessed = judged("0,1\n", &[], 0);
+    assert!(
+        guessed.contains("Judged by mesh and rays rounded to f32"),
+        "{guessed}"
+    );
+    assert!(
+        guessed.contains(" in f64, 1 would be wrong (--scalar f64)."),
+        "{guessed}"
+    );
+    judged("0,1\n", &["--scalar", "f64"], 1);
+    judged("0,1\n", &["--scalar", "f32"], 0);
 }
 
 #[test]
@@ -148,10 +201,11 @@ fn bad_input_is_named_by_file_and_line() {
         ("field.csv", "{\"origin\":[0,0,5]}\n"),
         ("two.csv", "3\n1\n"),
         ("many.csv", "3,1,2\n1\n1\n"),
+        ("far.csv", "9\n1\n-1\n"),
     ] {
         fs::write(folder.join(name), text).unwrap();
     }
-    let cases: [(&[&str], i32, &str); 11] = [
+    let cases: [(&[&str], i32, &str); 12] = [
         (
             &["short.csv"],
             65,
@@ -175,6 +229,11 @@ fn bad_input_is_named_by_file_and_line() {
             &["r.csv", "--answers", "many.csv"],
             65,
             "many.csv:1: expected a face and its t",
+        ),
+        (
+            &["r.csv", "--answers", "far.csv"],
+            65,
+            "far.csv:1: face 9, and the mesh has 4",
         ),
         (&[], 2, "which rays?"),
         (&["--ray", "1,2"], 2, "--ray: expected origin and direction"),

@@ -11,7 +11,7 @@ from ._truth import _numbers
 
 Judgement = IntEnum("Judgement", {name.upper(): code for code, name in enumerate(_hairline.judgements())}, module=__name__)
 Judgement.__doc__ = """The judgement of a nearest hit that a program answered: RIGHT; TIE, one of several nearest faces; NEIGHBOUR, a face
-that the ray misses by a hair, at the right point; WRONG_T, off by over 1/1000 of the face's longest edge; LOST, a miss where the
+that the ray misses by a hair, with nothing in front of it; WRONG_T, off by over 1/1000 of the face's longest edge; LOST, a miss where the
 mesh is hit; FARTHER, a face behind the nearest one; GHOST, a face elsewhere that the ray does not meet."""
 
 

@@ -77,7 +77,7 @@ impl ExactScene {
         Ok(ExactScene(scene))
     }
 
-    /// Of each ray the first of the nearest faces ([`NO_FACE`] for none), its t, and how many faces there are at that t.
+    /// The first of the nearest faces of each ray ([`NO_FACE`] for none), its t, and how many faces there are at that t.
     fn nearest<'py>(
         &self,
         py: Python<'py>,

@@ -216,7 +216,7 @@ impl Conformance {
         match self.known.iter().map(|known| known.found.count).sum() {
             0 => String::new(),
             count => format!(
-                " of {} (each disagreement is of a kernel, a family and a class)",
+                " of {} (a disagreement is a kind of wrong answer in a family and a class)",
                 number_of(count, "known finding", "known findings")
             ),
         }

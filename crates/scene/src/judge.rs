@@ -35,8 +35,8 @@ pub enum Judgement {
     Lost,
     /// A face that the ray meets behind the nearest one.
     Farther,
-    /// A face that the ray misses by a hair: the exact point is nearer to it than [`VISIBLE`] of the nearest face's longest
-    /// edge, and t is right where it is given. Another face, and nothing that anybody sees.
+    /// A face that the ray misses by a hair, by less than [`VISIBLE`] of its longest edge, and nothing is hit in front of it: a
+    /// neighbour of the nearest face, or a silhouette. Another answer, and nothing that anybody sees.
     Neighbour,
     /// A face that the ray does not meet, elsewhere.
     Ghost,
@@ -70,6 +70,9 @@ impl<F: Float> Scene<F> {
         let Some(nearest) = self.nearest(ray)? else {
             let judgement = match answer.face {
                 None => Judgement::Right,
+                Some(face) if self.is_missed_by_a_hair(ray, face, answer.t, f64::INFINITY) => {
+                    Judgement::Neighbour
+                }
                 Some(_) => Judgement::Ghost,
             };
             return Ok(Judged {
@@ -112,11 +115,9 @@ impl<F: Float> Scene<F> {
         let Some(t) = answer.t else {
             return Ok((right, None));
         };
-        if t.is_nan() {
-            return Ok((Judgement::WrongT, None));
-        }
         let behind = self.behind(ray, nearest, t)?;
-        let is_visible = behind.is_some_and(|behind| VISIBLE < behind.abs());
+        // Without a number t is NaN, infinite, or as far as that.
+        let is_visible = behind.is_none_or(|behind| VISIBLE < behind.abs());
         Ok(match is_visible {
             true => (Judgement::WrongT, behind),
             false => (right, behind),
@@ -135,32 +136,49 @@ impl<F: Float> Scene<F> {
             Some(t) => self.behind(ray, nearest, t)?,
             None => None,
         };
-        let is_elsewhere = t.is_some() && behind.is_none_or(|behind| VISIBLE < behind.abs());
-        let Some(place) = self.place_of(face).filter(|_| !is_elsewhere) else {
-            return Ok((Judgement::Ghost, behind));
-        };
-        let exact = self.values(ray, nearest.faces[0])?;
-        let edge = self.longest_edge(nearest);
-        let is_beside = exact.is_some_and(|exact| {
-            let distance = distance_to(&self.triangle_at(place), exact.points[0]);
-            distance <= VISIBLE * edge
-        });
-        Ok(match is_beside {
+        let edges = self.edges_to_a_t(ray, nearest);
+        let Bounds { upper, .. } = nearest.t;
+        // Not farther behind the nearest face than anybody sees.
+        let latest = upper + VISIBLE / edges;
+        Ok(match self.is_missed_by_a_hair(ray, face, t, latest) {
             true => (Judgement::Neighbour, behind),
             false => (Judgement::Ghost, behind),
         })
     }
 
-    fn longest_edge(&self, nearest: &Nearest) -> f64 {
+    /// True if the point at which a ray meets a face's plane is nearer to the face than anybody sees, on the interval and at
+    /// `latest` at the most; at t, if it is given. In floats.
+    fn is_missed_by_a_hair(&self, ray: &Ray<F>, face: u32, t: Option<f64>, latest: f64) -> bool {
+        let Some(place) = self.place_of(face) else {
+            return false;
+        };
+        let triangle = self.triangle_at(place);
+        let [a, b, c] = triangle.map(DVec3::from);
+        let origin = DVec3::from(ray.origin.map(F::to_f64));
+        let direction = DVec3::from(ray.direction.map(F::to_f64));
+        let normal = (b - a).cross(c - a);
+        let crossing = (a - origin).dot(normal) / direction.dot(normal);
+        let hair = VISIBLE * longest_edge(&triangle);
+        let is_there = |t: f64| {
+            let point = origin + t * direction;
+            distance_to(&triangle, point.into()) <= hair
+        };
+        let ends = ray.t_min.to_f64()..=ray.t_max.to_f64().min(latest);
+        // A ray along the plane has no crossing of it, but a t perhaps.
+        is_there(t.unwrap_or(crossing)) && ends.contains(&t.unwrap_or(crossing))
+    }
+
+    /// How many longest edges of the nearest face the ray covers while t grows by 1.
+    fn edges_to_a_t(&self, ray: &Ray<F>, nearest: &Nearest) -> f64 {
         let place = self.place_of(nearest.faces[0]);
         let place = place.expect("a face that is met is finite");
-        longest_edge(&self.triangle_at(place))
+        let length = DVec3::from(ray.direction.map(F::to_f64)).length();
+        length / longest_edge(&self.triangle_at(place))
     }
 
     /// How far the point at t lies behind the nearest one, in longest edges of the nearest face; none if that is no number.
     fn behind(&self, ray: &Ray<F>, nearest: &Nearest, t: f64) -> Result<Option<f64>, InvalidRay> {
-        let length = DVec3::from(ray.direction.map(F::to_f64)).length();
-        let edges = length / self.longest_edge(nearest);
+        let edges = self.edges_to_a_t(ray, nearest);
         let Bounds { lower, upper } = nearest.t;
         let behind = match (upper - lower) * edges <= TELLING {
             true => (t - lower.midpoint(upper)) * edges,

@@ -14,12 +14,15 @@ use crate::kernel::{KERNELS, Scalar, Verdict, verdicts_of};
 use crate::record::{group_digits, number_of};
 use crate::report::Format;
 use crate::report::page::{Block, Cell, Head, Item, Page, Paged, Row, Table, Tone};
-use hairline_scene::{Answer, Judged, Judgement, Nearest, Ray, Scene};
+use hairline_scene::{Answer, Judged, Judgement, Ray};
 use serde::Serialize;
 use std::cmp::Reverse;
 
 /// How many wrong answers are shown with their commands.
 const SHOWN: usize = 3;
+
+/// The fewest wrong faces by which a shift of their numbers is known.
+const FEWEST: usize = 5;
 
 /// How many kernels a sentence names.
 const NAMED: usize = 3;
@@ -38,8 +41,10 @@ struct JudgedAnswers {
     /// Rays that hit the mesh.
     hits: u64,
     counts: Vec<JudgementCount>,
-    /// Rays whose nearest faces are others when mesh and rays are taken as f64, where f32 was asked for.
-    other_in_f64: Option<u64>,
+    /// How many are wrong by mesh and rays as they are written, in f64, if f32 was chosen because fewer are wrong there.
+    wrong_in_f64: Option<u64>,
+    /// The number that added to the faces of wrong answers makes most of them right, if one does.
+    shift: Option<i64>,
     /// How many hits that the program lost, or answered with a wrong face, kernels were asked about.
     asked: u64,
     /// How many of these each kernel misses by itself, on every nearest face.
@@ -97,7 +102,7 @@ const KINDS: [(Judgement, &str, &str); 7] = [
     (
         Judgement::Neighbour,
         "neighbour",
-        "a face that the ray misses by a hair, and the right point",
+        "a face that the ray misses by a hair: nobody sees it",
     ),
     (
         Judgement::Tie,
@@ -107,38 +112,70 @@ const KINDS: [(Judgement, &str, &str); 7] = [
     (Judgement::Right, "right", "the nearest face, or no hit"),
 ];
 
-/// Judges all answers.
-pub(super) fn run<F: Scalar>(
+/// Judges all answers: in a scalar, or else in the one in which fewer are wrong.
+pub(super) fn run(
     arguments: &RaysArguments,
     mesh: &Mesh,
-    scene: &Scene<F>,
-    rays: &[Ray<F>],
     file: &str,
-) -> Result<Status, Failure>
+    scalar: Option<ScalarName>,
+) -> Result<Status, Failure> {
+    let outputs = arguments.output.pairs(Format::OF_PAGE)?;
+    let in_f32 = || judged::<f32>(arguments, mesh, file);
+    let in_f64 = || judged::<f64>(arguments, mesh, file);
+    let result = match scalar {
+        Some(ScalarName::F32) => in_f32()?,
+        Some(ScalarName::F64) => in_f64()?,
+        // Standard input is read once.
+        None if [arguments.rays_file(), file].contains(&"-") => in_f64()?,
+        None => fewer_wrong(in_f64()?, in_f32)?,
+    };
+    arguments.output.write(outputs, &result)?;
+    Ok(match result.wrong_count() {
+        0 => Status::Success,
+        _ => Status::Disagreements,
+    })
+}
+
+/// The judgements in f64 if nothing is wrong there, or no less than in f32: most programs compute in one of the two.
+fn fewer_wrong(
+    in_f64: JudgedAnswers,
+    in_f32: impl FnOnce() -> Result<JudgedAnswers, Failure>,
+) -> Result<JudgedAnswers, Failure> {
+    let wrong = in_f64.wrong_count();
+    if wrong == 0 {
+        return Ok(in_f64);
+    }
+    let in_f32 = in_f32()?;
+    Ok(match in_f32.wrong_count() < wrong {
+        true => JudgedAnswers {
+            wrong_in_f64: Some(wrong),
+            ..in_f32
+        },
+        false => in_f64,
+    })
+}
+
+fn judged<F: Scalar>(
+    arguments: &RaysArguments,
+    mesh: &Mesh,
+    file: &str,
+) -> Result<JudgedAnswers, Failure>
 where
     Case<F>: Into<AnyCase>,
 {
-    let outputs = arguments.output.pairs(Format::OF_PAGE)?;
-    let answers = read::answers(file, rays.len())?;
+    let scene = super::scene::<F>(mesh)?;
+    let rays = read::rays::<F>(arguments.rays_file())?;
+    let answers = read::answers(file, rays.len(), mesh.triangles.len())?;
     let judged = of_all(arguments, rays.len(), |index| {
         scene.judge(&rays[index], &answers[index])
     })?;
     let run = JudgedRun {
         mesh,
-        rays,
+        rays: &rays,
         answers: &answers,
         judged: &judged,
     };
-    let mut result = run.result();
-    if F::NAME == ScalarName::F32 {
-        result.other_in_f64 = Some(run.others_in_f64(arguments)?);
-    }
-    let is_wrong = judged.iter().any(|judged| judged.judgement.is_wrong());
-    arguments.output.write(outputs, &result)?;
-    Ok(match is_wrong {
-        true => Status::Disagreements,
-        false => Status::Success,
-    })
+    Ok(run.result())
 }
 
 /// Rays with their answers and judgements, each list in the order of the rays.
@@ -161,7 +198,8 @@ where
             rays: self.rays.len() as u64,
             hits: hits as u64,
             counts: KINDS.iter().map(|kind| self.count(kind)).collect(),
-            other_in_f64: None,
+            wrong_in_f64: None,
+            shift: self.shift(),
             asked,
             missed_by,
             worst: self.worst(),
@@ -260,7 +298,10 @@ where
             Some(face) => format!("the nearest is face {face}"),
         };
         let behind = match judged.behind {
-            Some(behind) => format!(", {} longest edges behind", short(behind)),
+            Some(behind) if behind < 0.0 => {
+                format!(", {} longest edges in front of it", short(-behind))
+            }
+            Some(behind) => format!(", {} longest edges behind it", short(behind)),
             None => String::new(),
         };
         let shown = nearest.or(self.answers[index].face);
@@ -269,21 +310,27 @@ where
             .map(|face| explain_command(self.mesh, ray, face));
         WrongAnswer {
             ray: index,
-            text: format!("ray {index}: {answer}{behind}; {truth}"),
+            text: format!("ray {index}: {truth}; answered {answer}{behind}"),
             command,
         }
     }
 
-    /// How many rays have other nearest faces if mesh and rays are taken as they are written, in f64.
-    fn others_in_f64(&self, arguments: &RaysArguments) -> Result<u64, Failure> {
-        let scene = super::scene::<f64>(self.mesh)?;
-        let rays = read::rays::<f64>(arguments.rays.as_deref().unwrap_or_default())?;
-        let others = of_all(arguments, rays.len(), |index| {
-            let nearest = scene.nearest(&rays[index])?;
-            let faces = |it: &Option<Nearest>| it.as_ref().map(|it| it.faces.clone());
-            Ok(faces(&nearest) != faces(&self.judged[index].nearest))
-        })?;
-        Ok(others.into_iter().filter(|is_other| *is_other).count() as u64)
+    /// The shift of face numbers with which most wrong faces are right: a program that counts from 1, for example.
+    fn shift(&self) -> Option<i64> {
+        let wrong = self.judged.iter().zip(self.answers);
+        let wrong: Vec<(&[u32], u32)> = wrong
+            .filter(|(judged, _)| judged.judgement.is_wrong())
+            .filter_map(|(judged, answer)| Some((&*judged.nearest.as_ref()?.faces, answer.face?)))
+            .collect();
+        let makes_right = |shift: i64| {
+            let is_right = |(nearest, face): &&(&[u32], u32)| {
+                let shifted = u32::try_from(i64::from(*face) + shift);
+                shifted.is_ok_and(|face| nearest.contains(&face))
+            };
+            wrong.iter().filter(is_right).count()
+        };
+        let is_most = |shift: &i64| FEWEST <= wrong.len() && wrong.len() < 2 * makes_right(*shift);
+        [-1, 1].into_iter().find(is_most)
     }
 }
 
@@ -299,26 +346,33 @@ fn short(number: f64) -> String {
 
 impl Paged for JudgedAnswers {
     fn page(&self) -> Page {
-        let wrong: u64 = self.wrong().map(|it| it.count).sum();
-        let rays = number_of(self.rays, "answer", "answers");
+        let wrong = self.wrong_count();
+        let answers = number_of(self.rays, "answer", "answers");
         let title = match wrong {
-            0 => format!("None of {rays} is wrong"),
-            wrong => format!("{} of {rays} are wrong", group_digits(wrong)),
+            0 => format!("None of {answers} is wrong"),
+            1 => format!("1 of {answers} is wrong"),
+            wrong => format!("{} of {answers} are wrong", group_digits(wrong)),
         };
-        let mut blocks = vec![Block::text(self.blame()), Block::Table(self.table())];
-        if let Some(others) = self.other_in_f64.filter(|others| 0 < *others) {
+        let mut blocks = vec![Block::text(self.blame())];
+        if let Some(in_f64) = self.wrong_in_f64 {
             blocks.push(Block::text(format!(
-                "Judged by mesh and rays rounded to f32. As they are written, in f64, {} another nearest face: what rounding the \
-                 input costs.",
-                number_of(others, "ray has", "rays have")
+                "Judged by mesh and rays rounded to f32, in which the program seems to compute: by the numbers as written, in f64, {} \
+                 would be wrong (--scalar f64).",
+                group_digits(in_f64)
             )));
         }
+        blocks.push(Block::Table(self.table()));
+        let shown = self.counts.iter().filter(|it| 0 < it.count);
+        blocks.push(Block::terms(
+            shown.map(|it| (it.judgement, it.meaning.to_owned())),
+        ));
         let items = self.worst.iter().map(|it| Item {
             text: it.text.clone(),
             lines: it.command.iter().cloned().collect(),
             ..Item::default()
         });
-        blocks.extend(Block::items("Wrong answers", SHOWN, items.collect()));
+        let title_of_worst = "Wrong answers (rays and faces are counted from 0)";
+        blocks.extend(Block::items(title_of_worst, SHOWN, items.collect()));
         Page {
             command: "rays",
             title,
@@ -337,9 +391,21 @@ impl JudgedAnswers {
         self.counts.iter().filter(move |it| is_wrong(it.judgement))
     }
 
-    /// Who lost the hits, as far as kernels tell.
+    fn wrong_count(&self) -> u64 {
+        self.wrong().map(|it| it.count).sum()
+    }
+
+    /// Who lost the hits, as far as it can be told.
     fn blame(&self) -> String {
-        let of = group_digits(self.asked);
+        if let Some(shift) = self.shift {
+            return format!(
+                "The faces are numbered otherwise: with {shift:+} most wrong ones are right. Numbers count from 0 here, in the order of the \
+                 file."
+            );
+        }
+        if self.asked == 0 {
+            return "No hit is lost.".to_owned();
+        }
         let named: Vec<String> = self
             .missed_by
             .iter()
@@ -348,21 +414,22 @@ impl JudgedAnswers {
             .map(|it| format!("{} {}", it.kernel, group_digits(it.count)))
             .collect();
         let most = self.missed_by.first().map_or(0, |it| it.count);
-        let elsewhere = "a tree, a box, a transform or an end of the interval";
-        if self.asked == 0 {
-            "No hit is lost.".to_owned()
-        } else if most == 0 {
+        let lost = number_of(self.asked, "nearest hit is", "nearest hits are");
+        let start = format!("{lost} lost: missed, or another face is answered.");
+        let places =
+            "a tree, a box, a transform, an end of the interval, or how faces are numbered";
+        if most == 0 {
             format!(
-                "None of the {of} lost hits is missed by a built-in kernel alone, on its face: {elsewhere} lost them."
+                "{start} No built-in kernel alone misses one of them on its face, so look at {places}."
             )
         } else if BLAMED * self.asked as f64 <= most as f64 {
             format!(
-                "The triangle test lost them. Of {of} lost hits a built-in kernel alone misses, on every nearest face: {}.",
+                "{start} The triangle test lost them: a built-in kernel alone misses as many ({}).",
                 named.join(", ")
             )
         } else {
             format!(
-                "Of {of} lost hits a built-in kernel alone misses, on every nearest face: {}. The others were lost by {elsewhere}.",
+                "{start} A built-in kernel alone misses so many of them: {}. For the others look at {places}.",
                 named.join(", ")
             )
         }
@@ -375,7 +442,6 @@ impl JudgedAnswers {
             Head::of("median off")
                 .about("how far behind the exact point, in longest edges of the nearest face"),
             Head::of("most off"),
-            Head::text("meaning"),
         ];
         let row = |it: &JudgementCount| {
             let is_wrong = self.wrong().any(|wrong| wrong.judgement == it.judgement);
@@ -383,7 +449,6 @@ impl JudgedAnswers {
                 Cell::count(it.count).broken_if(is_wrong && 0 < it.count),
                 Cell::optional(it.median, short),
                 Cell::optional(it.most, short),
-                Cell::words(it.meaning),
             ];
             Row::new(it.judgement, cells)
         };

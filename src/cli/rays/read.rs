@@ -39,11 +39,20 @@ pub(super) fn points<F: Scalar>(file: &str) -> Result<Vec<[F; 3]>, Failure> {
     lines(file, "points", read)
 }
 
-/// The answers of a file, one for each of so many rays.
-pub(super) fn answers(file: &str, rays: usize) -> Result<Vec<Answer>, Failure> {
-    let read = |line: &str| match line.starts_with('{') {
-        true => answer_of_json(line),
-        false => answer_of_words(&words(line)),
+/// The answers of a file, one for each of so many rays, at a mesh of so many faces.
+pub(super) fn answers(file: &str, rays: usize, faces: usize) -> Result<Vec<Answer>, Failure> {
+    let read = |line: &str| {
+        let answer = match line.starts_with('{') {
+            true => answer_of_json(line),
+            false => answer_of_words(&words(line)),
+        }?;
+        // One more than there are is what a program says that counts from 1.
+        match answer.face {
+            Some(face) if faces < face as usize => Err(format!(
+                "face {face}, and the mesh has {faces}, counted from 0"
+            )),
+            _ => Ok(answer),
+        }
     };
     let answers = lines(file, "answers", read)?;
     if answers.len() != rays {

@@ -23,7 +23,8 @@ pub(super) fn notes(record: &SceneResult, part: &SceneKernelPart) -> Vec<String>
     notes.extend(cracks_of_its_own(record, part));
     if part.knobs.iter().all(|knob| !knob.is_gate) && part.others.is_empty() {
         notes.push(
-            "the kernel has no epsilons, so the least t is all that there is to choose".to_owned(),
+            "the kernel declares no epsilons, so the least t is all that there is to choose"
+                .to_owned(),
         );
     }
     notes.extend(few_rays(record, record.rays_of(part)));

@@ -163,7 +163,7 @@ fn trade(part: &SceneKernelPart, knob: usize) -> Option<String> {
         });
     }
     beyond_limits(part, knob).map(|epsilon| {
-        format!("{name}={epsilon} is outside its limits, since values within them cost more")
+        format!("{name}={epsilon} is recommended although it is outside its limits: values within them cost more")
     })
 }
 

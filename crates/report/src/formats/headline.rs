@@ -74,18 +74,18 @@ fn worse(record: &Record, conformance: &Conformance) -> String {
     if let Some(mistake) = relations::mistakes(record).into_iter().next() {
         return format!("{lead}: {mistake}");
     }
-    if let Some(computed) = conformance.computes.first() {
-        let how = match computed.is_fused {
-            true => "fused products",
-            false => "another epsilon than it says",
-        };
-        return format!("{lead}: {} computes with {how}", computed.kernel);
-    }
     let [more, fewer] = conformance.more_and_fewer();
     let lead = match more < fewer {
         true => "Mixed",
         false => lead,
     };
+    if let Some(computed) = conformance.computes.first() {
+        let how = match computed.is_fused {
+            true => "fused products".to_owned(),
+            false => format!("another epsilon than {}", computed.formula),
+        };
+        return format!("{lead}: {} computes with {how}", computed.kernel);
+    }
     if let Some(change) = conformance.rows.first() {
         return format!("{lead}: {}", set_otherwise(change));
     }

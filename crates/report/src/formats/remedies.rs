@@ -64,7 +64,9 @@ pub(super) fn remedies(record: &Record, conformance: &Conformance) -> Vec<Item> 
 fn computed(computed: &ComputedFormula) -> String {
     let ComputedFormula { kernel, set, .. } = computed;
     let advice = match (&computed.epsilon, computed.is_fused) {
-        (Some(_), _) => "put the epsilon back, or declare the one that it has.".to_owned(),
+        (Some(_), _) => format!(
+            "put the epsilon back, or, if it is meant, {ACCEPT}; a kernel that declares its epsilon has it named by the report."
+        ),
         (None, _) => format!(
             "compile it with -ffp-contract=off (GCC, Clang), /fp:precise (MSVC) or -fmad=false (nvcc). If your product \
              is compiled with fused products, {ACCEPT}."

@@ -20,7 +20,7 @@ const MOST_LISTED: usize = 3;
 const MOST_CHANGES: usize = 8;
 
 /// The meaning of the words of a class.
-const CLASSES: &str = "of interior/back/within: where the line meets the triangle, which side it comes from, where on the \
+const CLASSES: &str = "A class, as interior/back/within: where the line meets the triangle, which side it comes from, where on the \
                        ray (within, before its start, beyond its end)";
 
 /// The blocks below the first line of a `check`.
@@ -107,7 +107,7 @@ fn reasons(record: &Record, conformance: &Conformance) -> Vec<String> {
     if 0 < more && more < fewer {
         let classes = number_of(conformance.unexpected.len() as u64, "class", "classes");
         texts.push(format!(
-            "Fewer answers are wrong in all. The check fails because {classes} of cases have more, or other, wrong answers \
+            "Fewer answers are wrong in total. The check fails because {classes} of cases have more, or other, wrong answers \
              than known: some that were right are wrong now."
         ));
     }
@@ -171,7 +171,7 @@ fn short_case(conformance: &Conformance, short: &ShortCase) -> Vec<Block> {
     let about = match (&short.right, &conformance.expectations) {
         (Some(formula), _) => format!("{formula} as published is right on it."),
         (None, Some(_)) => {
-            "Run the command with the kernel of before too: it may have been wrong there."
+            "An older build of the kernel may be wrong on it too: ask it with the same command."
                 .to_owned()
         }
         (None, None) => "This shows it:".to_owned(),

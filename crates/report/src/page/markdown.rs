@@ -2,6 +2,7 @@
 
 use super::{Block, Head, Item, Items, Page, Table, Use};
 use crate::format::Style;
+use hairline_record::group_digits;
 use std::io::{self, Write};
 
 /// A forge's summary holds less than a mebibyte.
@@ -84,14 +85,23 @@ impl MarkdownWriter {
                 list(&terms.collect::<Vec<_>>())
             }
             Block::Listing(text) => listing(text),
-            Block::Items(Items { items, .. }) => {
+            Block::Items(Items { items, most }) => {
                 let item = |item: &Item| {
                     let notes = item.notes.iter().chain(&item.url).map(|note| words(note));
                     let all = notes.chain(item.lines.iter().map(|line| code(line)));
                     let more: String = all.map(|line| format!("<br>{line}")).collect();
                     format!("- {}{more}\n", words(&item.text))
                 };
-                format!("\n{}", items.iter().map(item).collect::<String>())
+                let (shown, folded) = items.split_at(items.len().min(*most));
+                let shown: String = shown.iter().map(item).collect();
+                let folded: String = folded.iter().map(item).collect();
+                match folded.is_empty() {
+                    true => format!("\n{shown}"),
+                    false => format!(
+                        "\n{shown}\n<details><summary>and {} more</summary>\n\n{folded}\n</details>\n",
+                        group_digits((items.len() - most) as u64)
+                    ),
+                }
             }
             Block::Picture(_) | Block::Stage(_) => String::new(),
             Block::Details(title, all) if self.style.details => {

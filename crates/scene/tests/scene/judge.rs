@@ -59,6 +59,27 @@ fn a_face_beside_the_ray_is_a_neighbour_where_the_point_is_right() {
     assert_eq!(judged(&ray, Some(1), None).0, Judgement::Neighbour);
     assert_eq!(judged(&ray, Some(1), Some(1.0001)).0, Judgement::Neighbour);
     assert_eq!(judged(&ray, Some(1), Some(1.1)).0, Judgement::Ghost);
+    // No number, and a number beyond all.
+    assert_eq!(
+        judged(&ray, Some(0), Some(f64::INFINITY)).0,
+        Judgement::WrongT
+    );
+    assert_eq!(
+        judged(&ray, Some(1), Some(f64::INFINITY)).0,
+        Judgement::Ghost
+    );
+    // A silhouette: beside the squares nothing is hit, or what lies behind.
+    let past = Ray::new([1.0 + 1e-6, 0.5, 1.0], [0.0, 0.0, -1.0]);
+    assert_eq!(judged(&past, Some(0), Some(1.0)).0, Judgement::Neighbour);
+    assert_eq!(judged(&past, Some(0), None).0, Judgement::Neighbour);
+    assert_eq!(judged(&past, Some(0), Some(1.1)).0, Judgement::Ghost);
+    assert_eq!(
+        judged(&past.on(0.0, 0.5), Some(0), None).0,
+        Judgement::Ghost
+    );
+    // From below, past the lower square, whose faces are in front of the upper ones there.
+    let onto = Ray::new([0.999, 0.5, -3.0], [1e-3 + 1e-9, 0.0, 1.0]);
+    assert_eq!(judged(&onto, Some(2), None).0, Judgement::Neighbour);
     // The same face a tenth away.
     let aside = Ray::new([0.35, 0.25, 1.0], [0.0, 0.0, -1.0]);
     assert_eq!(judged(&aside, Some(1), None).0, Judgement::Ghost);
