@@ -7,6 +7,7 @@ use crate::corpus::lines::bare_case;
 use crate::explore::{Signature, shorten, verdict_and_finding};
 use crate::judge::Class;
 use crate::kernel::Scalar;
+use crate::oracle;
 use crate::record::{ComputedFormula, Conformance, Deviation, FindingClass, ShortCase};
 use crate::report::explain::misused_formula;
 
@@ -111,8 +112,13 @@ fn shortened<F: Scalar>(
             && verdict_and_finding(row, &row.epsilons(), case).2.is_none()
     };
     let published = published.filter(|row| is_right(row, &case));
+    // A start on the surface would be shorter, and another question.
+    let place = |case: &Case<F>| oracle::truth(case).crossing().map(|it| it.place);
+    let own_place = place(&case);
     let short = shorten(&case, |case| {
-        signature.is_shown(row, case) && published.is_none_or(|row| is_right(&row, case))
+        place(case) == own_place
+            && signature.is_shown(row, case)
+            && published.is_none_or(|row| is_right(&row, case))
     });
     let line = bare_case(short);
     Some(ShortCase {
