@@ -96,7 +96,7 @@ enum Chosen {
     Explain(explain::ExplainArguments),
     /// Judge ray-box tests
     Boxes(boxes::BoxesArguments),
-    /// Say what rays meet in a mesh, and judge a program's answers
+    /// Tell what rays meet in a mesh, exactly
     Rays(Box<rays::RaysArguments>),
     /// Draw where a kernel is wrong around a case, a pixel a float
     Map(Box<map::MapArguments>),
