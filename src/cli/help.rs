@@ -50,6 +50,10 @@ pub const EXAMPLES: &[(&str, &str)] = &[
     ("list", "hairline list kernels"),
     ("boxes", "hairline boxes audit --kernel ize,kay-kajiya"),
     (
+        "rays",
+        "hairline rays model.obj rays.csv --answers mine.csv",
+    ),
+    (
         "fuzz",
         "hairline fuzz campaign --kernel moller-trumbore --time 60",
     ),
