@@ -2,6 +2,7 @@
 
 mod found;
 mod judged;
+mod made;
 mod one;
 mod points;
 mod read;
@@ -45,6 +46,23 @@ pub struct RaysArguments {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["rays", "answers"])]
     points: Option<String>,
 
+    /// Make so many rays at the mesh instead, as CSV: ask your program about them
+    #[arg(long, value_name = "N", conflicts_with_all = ["rays", "ray", "answers", "points"])]
+    make: Option<u64>,
+
+    /// Which rays to make: random, vertex, edge, axis, plane (in that of a face), surface (from face to face) [default: all in turn]
+    #[arg(
+        long,
+        value_name = "KIND,...",
+        value_delimiter = ',',
+        requires = "make"
+    )]
+    kinds: Vec<String>,
+
+    /// Seed of the rays that are made
+    #[arg(long, default_value_t = 1, requires = "make")]
+    seed: u64,
+
     /// f32 or f64: what the numbers of mesh and rays are rounded to first [default: f64; for --answers the one in which fewer
     /// are wrong]
     #[arg(long, value_name = "SCALAR")]
@@ -62,9 +80,10 @@ pub struct RaysArguments {
 pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
     set_threads(arguments.threads)?;
     let given = [&arguments.rays, &arguments.ray, &arguments.points];
-    if given.iter().all(|given| given.is_none()) {
+    if arguments.make.is_none() && given.iter().all(|given| given.is_none()) {
         return Err(Failure::usage(
-            "which rays? Give a file of them, or one as --ray \"0,0,5 0,0,-1\"; --points FILE asks if points are inside",
+            "which rays? Give a file of them, one as --ray \"0,0,5 0,0,-1\", or --make 1000 -o rays.csv; --points FILE asks if points are \
+             inside",
         ));
     }
     let scalar = arguments.scalar.as_deref().map(find_scalar).transpose()?;
@@ -82,6 +101,9 @@ fn run_in<F: Scalar>(arguments: &RaysArguments, mesh: &Mesh) -> Result<Status, F
 where
     Case<F>: Into<AnyCase>,
 {
+    if let Some(count) = arguments.make {
+        return made::run::<F>(arguments, mesh, count);
+    }
     let scene = scene::<F>(mesh)?;
     if let Some(text) = &arguments.ray {
         return one::run(arguments, mesh, &scene, read::ray_of_words::<F>(text)?);

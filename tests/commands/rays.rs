@@ -251,3 +251,60 @@ fn bad_input_is_named_by_file_and_line() {
         );
     }
 }
+
+#[test]
+fn rays_are_made_at_the_places_that_their_kinds_say() {
+    let folder = folder("rays-made");
+    let made = |kind: &str, file: &str| {
+        let words = [
+            "rays", "t.obj", "-q", "--make", "60", "--kinds", kind, "-o", file,
+        ];
+        ends(&folder, &words, 0);
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        assert_eq!(text.lines().count(), 61);
+        assert!(text.starts_with("ox,oy,oz,dx,dy,dz\n"), "{text}");
+        text
+    };
+    let nearest = |file: &str| -> Vec<(usize, usize)> {
+        let (csv, _) = ends(
+            &folder,
+            &["rays", "t.obj", file, "-q", "--format", "csv"],
+            0,
+        );
+        let counts = csv.lines().skip(1).map(|line| {
+            let faces = line.split(',').next().unwrap();
+            let met = line.rsplit(',').next().unwrap();
+            (faces.split_whitespace().count(), met.parse().unwrap())
+        });
+        counts.collect()
+    };
+    // Each meets the vertex, and with it three faces at one t.
+    made("vertex", "v.csv");
+    assert!(nearest("v.csv").iter().all(|(_, met)| 3 <= *met));
+    made("edge", "e.csv");
+    assert!(nearest("e.csv").iter().all(|(_, met)| 2 <= *met));
+    made("surface", "s.csv");
+    assert!(
+        nearest("s.csv")
+            .iter()
+            .filter(|(faces, _)| 1 <= *faces)
+            .count()
+            > 30
+    );
+    for line in made("axis", "a.csv").lines().skip(1) {
+        let zeros = line.split(',').skip(3).filter(|word| *word == "0").count();
+        assert_eq!(zeros, 2, "{line}");
+    }
+    // Others by another seed, and as many of all kinds.
+    let words = ["rays", "t.obj", "-q", "--make", "12", "--seed", "2"];
+    let (other, _) = ends(&folder, &words, 0);
+    assert_eq!(other.lines().count(), 13);
+    let (first, _) = ends(&folder, &words[..5], 0);
+    assert_ne!(first, other);
+    let wrong = ["rays", "t.obj", "-q", "--make", "5", "--kinds", "vertx"];
+    let (_, error) = ends(&folder, &wrong, 2);
+    assert!(error.contains("did you mean 'vertex'?"), "{error}");
+    fs::write(folder.join("t.obj"), "v 1 1 1\nf 1 1 1\n").unwrap();
+    let (_, error) = ends(&folder, &words, 65);
+    assert!(error.contains("t.obj: "), "{error}");
+}

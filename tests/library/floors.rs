@@ -44,7 +44,7 @@ const ROOMS: [Room; 17] = [
     room("crates/expect/src", Some("expect"), 17_200),
     room("crates/vectors/src", Some("vectors"), 11_900),
     room("crates/repair/src", Some("repair"), 16_800),
-    room("src", None, 113_300),
+    room("src", None, 115_500),
 ];
 
 /// The crates' sources, the lowest first.

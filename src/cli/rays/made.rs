@@ -1,0 +1,244 @@
+//! Rays at a mesh, to ask a program about: at random, and at the places where programs err.
+
+use super::RaysArguments;
+use crate::case::Draw;
+use crate::cli::exit::{Failure, Status};
+use crate::cli::flags::unknown;
+use crate::files::InputError;
+use crate::files::mesh::Mesh;
+use crate::files::number;
+use crate::kernel::Scalar;
+use crate::report::Format;
+use hairline_scene::Ray;
+use std::io::{self, Write};
+
+hairline_core::named! {
+    pub names
+    /// Where rays are aimed.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum RayKind {
+        /// From around the mesh, into its box.
+        Random = "random",
+        /// At vertices.
+        Vertex = "vertex",
+        /// At the middles of edges.
+        Edge = "edge",
+        /// Along an axis, through a vertex or into the box.
+        Axis = "axis",
+        /// In the plane of a face, as near as floats come to it.
+        Plane = "plane",
+        /// From one face to another.
+        Surface = "surface",
+    }
+}
+
+/// Rays that were made.
+struct MadeRays<F>(Vec<Ray<F>>);
+
+/// Origins are farther from the middle of the mesh than its box, by at most this factor.
+const AROUND: f64 = 3.0;
+
+/// Directions are multiples of this share of the mesh's size, so that few are rounded.
+const STEPS: i64 = 64;
+
+/// Writes so many rays of each kind in turn.
+pub(super) fn run<F: Scalar>(
+    arguments: &RaysArguments,
+    mesh: &Mesh,
+    count: u64,
+) -> Result<Status, Failure> {
+    let outputs = arguments.output.pairs(MadeRays::<F>::FORMATS)?;
+    let kinds = kinds(&arguments.kinds)?;
+    let targets = MeshTargets::<F>::new(mesh)?;
+    let rays = (0..count).map(|index| {
+        let kind = kinds[(index % kinds.len() as u64) as usize];
+        targets.ray(kind, arguments.seed, index)
+    });
+    arguments.output.write(outputs, &MadeRays(rays.collect()))?;
+    Ok(Status::Success)
+}
+
+/// The kinds of these names; all without names.
+fn kinds(names: &[String]) -> Result<Vec<RayKind>, Failure> {
+    if names.is_empty() {
+        return Ok(RayKind::ALL.to_vec());
+    }
+    let named = |name: &String| {
+        let kind = RayKind::ALL.into_iter().find(|kind| kind.name() == name);
+        kind.ok_or_else(|| {
+            unknown(
+                "kind of rays",
+                name,
+                RayKind::ALL.map(RayKind::name),
+                "hairline rays --help",
+            )
+        })
+    };
+    names.iter().map(named).collect()
+}
+
+impl<F: Scalar> MadeRays<F> {
+    /// A line of six numbers a ray, below their names.
+    const FORMATS: &'static [Format<MadeRays<F>>] = &[Format {
+        name: "csv",
+        write: |rays, _, out| rays.write(out),
+    }];
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "ox,oy,oz,dx,dy,dz")?;
+        for ray in &self.0 {
+            let numbers = [ray.origin, ray.direction].concat();
+            let words: Vec<String> = numbers.into_iter().map(number::write_shortest).collect();
+            writeln!(out, "{}", words.join(","))?;
+        }
+        Ok(())
+    }
+}
+
+/// A mesh that rays are aimed at.
+struct MeshTargets<F> {
+    triangles: Vec<[[F; 3]; 3]>,
+    /// The middle of its box.
+    middle: [f64; 3],
+    /// Half of its largest side.
+    half: f64,
+}
+
+impl<F: Scalar> MeshTargets<F> {
+    fn new(mesh: &Mesh) -> Result<MeshTargets<F>, Failure> {
+        let faces = 0..mesh.triangles.len();
+        let triangles: Vec<[[F; 3]; 3]> = faces.map(|face| mesh.vertices(face)).collect();
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for vertex in triangles.iter().flatten() {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(vertex[axis].to_f64());
+                high[axis] = high[axis].max(vertex[axis].to_f64());
+            }
+        }
+        let half = [0, 1, 2].map(|axis| high[axis] / 2.0 - low[axis] / 2.0);
+        let half = half.into_iter().fold(0.0, f64::max);
+        if !half.is_finite() || half == 0.0 {
+            let message = "there is no face of a size to aim rays at";
+            return Err(InputError::of(&mesh.name, message).into());
+        }
+        Ok(MeshTargets {
+            triangles,
+            middle: [0, 1, 2].map(|axis| low[axis].midpoint(high[axis])),
+            half,
+        })
+    }
+
+    fn ray(&self, kind: RayKind, seed: u64, index: u64) -> Ray<F> {
+        let draw = &mut Draw::new(&format!("rays-{kind}"), seed, index);
+        match kind {
+            RayKind::Random => {
+                let origin = self.around(draw);
+                let target = self.within(draw);
+                through(origin, target)
+            }
+            RayKind::Vertex => {
+                let [target, ..] = self.turned(draw);
+                self.at(target, draw)
+            }
+            RayKind::Edge => {
+                let [a, b, _] = self.turned(draw);
+                self.at(between(a, b, 0.5), draw)
+            }
+            RayKind::Axis => self.along_an_axis(draw),
+            RayKind::Plane => {
+                let [a, b, c] = self.turned(draw);
+                let [along_b, along_c] = [(); 2].map(|()| (2 * draw.integer(-8, 8) + 1) as f64);
+                let origin = between(between(a, b, along_b), between(a, c, along_c), 0.5);
+                let target = between(between(a, b, 0.25), c, 0.25);
+                through(origin, target)
+            }
+            RayKind::Surface => {
+                let [from, to] = [(); 2].map(|()| {
+                    let [a, b, c] = self.face(draw);
+                    let [u, v] = [(); 2].map(|()| draw.unit());
+                    between(between(a, b, u), c, v)
+                });
+                through(from, to)
+            }
+        }
+    }
+
+    fn face(&self, draw: &mut Draw) -> [[F; 3]; 3] {
+        draw.pick(&self.triangles)
+    }
+
+    /// A face that begins with any of its vertices.
+    fn turned(&self, draw: &mut Draw) -> [[F; 3]; 3] {
+        let mut face = self.face(draw);
+        face.rotate_left(draw.below(3));
+        face
+    }
+
+    /// A point in the mesh's box, if that is a cube.
+    fn within(&self, draw: &mut Draw) -> [F; 3] {
+        self.point(draw, 1.0)
+    }
+
+    /// A point around the mesh.
+    fn around(&self, draw: &mut Draw) -> [F; 3] {
+        self.point(draw, AROUND)
+    }
+
+    fn point(&self, draw: &mut Draw, factor: f64) -> [F; 3] {
+        self.middle.map(|middle| {
+            let offset: f64 = draw.symmetric();
+            F::from_f64(middle + factor * self.half * offset)
+        })
+    }
+
+    /// A ray that has a point at t = 1, exactly where its origin is not rounded: the direction has few digits.
+    fn at(&self, target: [F; 3], draw: &mut Draw) -> Ray<F> {
+        let step = power_of_two_below(AROUND * self.half / STEPS as f64);
+        let mut direction = [F::zero(); 3];
+        while direction.iter().all(|x| x.is_zero()) {
+            direction = [(); 3].map(|()| F::from_f64(step * draw.integer(-STEPS, STEPS) as f64));
+        }
+        let origin = [0, 1, 2].map(|axis| target[axis] - direction[axis]);
+        Ray::new(origin, direction)
+    }
+
+    fn along_an_axis(&self, draw: &mut Draw) -> Ray<F> {
+        let axis = draw.below(3);
+        let is_at_vertex = draw.coin();
+        let mut origin = match is_at_vertex {
+            true => self.face(draw)[0],
+            false => self.within(draw),
+        };
+        let mut direction = [F::zero(); 3];
+        let (way, start) = match draw.coin() {
+            true => (1.0, -AROUND),
+            false => (-1.0, AROUND),
+        };
+        direction[axis] = F::from_f64(way);
+        origin[axis] = F::from_f64(self.middle[axis] + start * self.half);
+        Ray::new(origin, direction)
+    }
+}
+
+/// The ray from one point towards another; along x if they are one.
+fn through<F: Scalar>(origin: [F; 3], target: [F; 3]) -> Ray<F> {
+    let mut direction = [0, 1, 2].map(|axis| target[axis] - origin[axis]);
+    if direction.iter().all(|x| x.is_zero()) {
+        direction[0] = F::from_f64(1.0);
+    }
+    Ray::new(origin, direction)
+}
+
+fn between<F: Scalar>(from: [F; 3], to: [F; 3], share: f64) -> [F; 3] {
+    [0, 1, 2].map(|axis| {
+        let [from, to] = [from[axis].to_f64(), to[axis].to_f64()];
+        F::from_f64(from + share * (to - from))
+    })
+}
+
+/// The largest power of two that is not above a size.
+fn power_of_two_below(size: f64) -> f64 {
+    let digits = (1 << 52) - 1;
+    f64::from_bits(size.to_bits() & !digits)
+}
