@@ -166,6 +166,10 @@ fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
     );
     judged("0,1\n", &["--scalar", "f64"], 1);
     judged("0,1\n", &["--scalar", "f32"], 0);
+    // Numbers beyond f32 are of a program in f64.
+    fs::write(folder.join("r.csv"), "0.5,0.25,1e300,0,0,-1e300\n").unwrap();
+    let far = judged("1,1\n", &[], 1);
+    assert!(far.starts_with("1 of 1 answer is wrong "), "{far}");
 }
 
 #[test]

@@ -30,9 +30,6 @@ const NAMED: usize = 3;
 /// The least share of lost hits that a kernel alone misses which says that the triangle test lost them.
 const BLAMED: f64 = 0.9;
 
-/// How many wrong answers are looked at for what the kernels say.
-const ASKED: usize = 10_000;
-
 /// How a program did.
 #[derive(Serialize)]
 struct JudgedAnswers {
@@ -45,8 +42,8 @@ struct JudgedAnswers {
     wrong_in_f64: Option<u64>,
     /// The number that added to the faces of wrong answers makes most of them right, if one does.
     shift: Option<i64>,
-    /// How many hits that the program lost, or answered with a wrong face, kernels were asked about.
-    asked: u64,
+    /// How many nearest hits the program missed, or answered with another face.
+    lost: u64,
     /// How many of these each kernel misses by itself, on every nearest face.
     missed_by: Vec<KernelMisses>,
     worst: Vec<WrongAnswer>,
@@ -145,7 +142,10 @@ fn fewer_wrong(
     if wrong == 0 {
         return Ok(in_f64);
     }
-    let in_f32 = in_f32()?;
+    // Numbers that f32 does not hold are of a program that computes in f64.
+    let Ok(in_f32) = in_f32() else {
+        return Ok(in_f64);
+    };
     Ok(match in_f32.wrong_count() < wrong {
         true => JudgedAnswers {
             wrong_in_f64: Some(wrong),
@@ -192,7 +192,7 @@ where
 {
     fn result(&self) -> JudgedAnswers {
         let hits = self.judged.iter().filter(|it| it.nearest.is_some()).count();
-        let (asked, missed_by) = self.kernels_that_miss();
+        let (lost, missed_by) = self.kernels_that_miss();
         JudgedAnswers {
             scalar: F::NAME.name(),
             rays: self.rays.len() as u64,
@@ -200,7 +200,7 @@ where
             counts: KINDS.iter().map(|kind| self.count(kind)).collect(),
             wrong_in_f64: None,
             shift: self.shift(),
-            asked,
+            lost,
             missed_by,
             worst: self.worst(),
         }
@@ -225,20 +225,14 @@ where
         }
     }
 
-    /// How many hits that were lost or answered with a wrong face kernels were asked about, and how many each misses by itself:
-    /// what it is most often to blame for first.
+    /// How many nearest hits were missed or answered with another face, and how many of them each kernel misses by itself, the most
+    /// first.
     fn kernels_that_miss(&self) -> (u64, Vec<KernelMisses>) {
         let is_lost = |judged: &(usize, &Judged)| {
             let kind = judged.1.judgement;
             judged.1.nearest.is_some() && kind.is_wrong() && kind != Judgement::WrongT
         };
-        let lost: Vec<(usize, &Judged)> = self
-            .judged
-            .iter()
-            .enumerate()
-            .filter(is_lost)
-            .take(ASKED)
-            .collect();
+        let lost: Vec<(usize, &Judged)> = self.judged.iter().enumerate().filter(is_lost).collect();
         let mut all: Vec<KernelMisses> = KERNELS
             .iter()
             .filter_map(|entry| {
@@ -403,7 +397,7 @@ impl JudgedAnswers {
                  file."
             );
         }
-        if self.asked == 0 {
+        if self.lost == 0 {
             return "No hit is lost.".to_owned();
         }
         let named: Vec<String> = self
@@ -414,7 +408,7 @@ impl JudgedAnswers {
             .map(|it| format!("{} {}", it.kernel, group_digits(it.count)))
             .collect();
         let most = self.missed_by.first().map_or(0, |it| it.count);
-        let lost = number_of(self.asked, "nearest hit is", "nearest hits are");
+        let lost = number_of(self.lost, "nearest hit is", "nearest hits are");
         let start = format!("{lost} lost: missed, or another face is answered.");
         let places =
             "a tree, a box, a transform, an end of the interval, or how faces are numbered";
@@ -422,7 +416,7 @@ impl JudgedAnswers {
             format!(
                 "{start} No built-in kernel alone misses one of them on its face, so look at {places}."
             )
-        } else if BLAMED * self.asked as f64 <= most as f64 {
+        } else if BLAMED * self.lost as f64 <= most as f64 {
             format!(
                 "{start} The triangle test lost them: a built-in kernel alone misses as many ({}).",
                 named.join(", ")
