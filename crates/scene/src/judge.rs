@@ -168,26 +168,30 @@ impl<F: Float> Scene<F> {
         is_there(t.unwrap_or(crossing)) && ends.contains(&t.unwrap_or(crossing))
     }
 
-    /// How many longest edges of the nearest face the ray covers while t grows by 1.
+    /// How many longest edges of the nearest faces the ray covers while t grows by 1.
     fn edges_to_a_t(&self, ray: &Ray<F>, nearest: &Nearest) -> f64 {
-        let place = self.place_of(nearest.faces[0]);
-        let place = place.expect("a face that is met is finite");
+        let places = nearest.faces.iter().filter_map(|face| self.place_of(*face));
+        let longest = places
+            .map(|place| longest_edge(&self.triangle_at(place)))
+            .fold(0.0, f64::max);
         let length = DVec3::from(ray.direction.map(F::to_f64)).length();
-        length / longest_edge(&self.triangle_at(place))
+        length / longest
     }
 
     /// How far the point at t lies behind the nearest one, in longest edges of the nearest face; none if that is no number.
     fn behind(&self, ray: &Ray<F>, nearest: &Nearest, t: f64) -> Result<Option<f64>, InvalidRay> {
         let edges = self.edges_to_a_t(ray, nearest);
         let Bounds { lower, upper } = nearest.t;
-        let behind = match (upper - lower) * edges <= TELLING {
-            true => (t - lower.midpoint(upper)) * edges,
+        let later = match (upper - lower) * edges <= TELLING {
+            true => t - lower.midpoint(upper),
             // The bounds are too wide to say it.
             false => match self.values(ray, nearest.faces[0])? {
-                Some(exact) => (t - exact.t[0]) * edges,
+                Some(exact) => t - exact.t[0],
                 None => return Ok(None),
             },
         };
+        // Faces that are points have no edge to measure by.
+        let behind = if later == 0.0 { 0.0 } else { later * edges };
         Ok(Some(behind).filter(|behind| behind.is_finite()))
     }
 }

@@ -84,3 +84,24 @@ fn a_face_beside_the_ray_is_a_neighbour_where_the_point_is_right() {
     let aside = Ray::new([0.35, 0.25, 1.0], [0.0, 0.0, -1.0]);
     assert_eq!(judged(&aside, Some(1), None).0, Judgement::Ghost);
 }
+
+#[test]
+fn a_face_that_is_a_point_is_right_at_its_t() {
+    let vertices = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+    let point = [[0, 0, 0]];
+    let ray = Ray::new([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]);
+    let alone = Scene::<f64>::new(&vertices, &point).unwrap();
+    let with_face = Scene::<f64>::new(&vertices, &[point[0], [0, 1, 2]]).unwrap();
+    let judged = |scene: &Scene<f64>, t: f64| {
+        let answer = Answer {
+            face: Some(0),
+            t: Some(t),
+        };
+        scene.judge(&ray, &answer).unwrap().judgement
+    };
+    assert_eq!(judged(&alone, 3.0), Judgement::Right);
+    assert_eq!(judged(&alone, 4.0), Judgement::WrongT);
+    // Measured by the edges of the other face.
+    assert_eq!(judged(&with_face, 3.0 + 1e-6), Judgement::Tie);
+    assert_eq!(judged(&with_face, 3.1), Judgement::WrongT);
+}
