@@ -99,6 +99,12 @@ fn hostile_files(folder: &Path) {
     };
     write(&format!("{HOSTILE}.jsonl"), case(&quoted(HOSTILE)));
     write("unknown.jsonl", case("\"x\""));
+    write(
+        "rays.csv",
+        "0.25 0.25 5 0 0 -1\n0.25 0.25 5 0 0 1\n".to_owned(),
+    );
+    write("answers.csv", "2,7\n0,1\n".to_owned());
+    write("hostile.csv", format!("# {HOSTILE}\n1,{HOSTILE}\n"));
     let named = "{\"name\":\"NAME\",\"scalar\":\"f32\",\"origin\":[0.25,0.25,1],\"direction\":[0,0,-1],\"a\":[0,0,0],\"b\":[1,0,0],\"c\":[0,1,0]}\n";
     write("markup.jsonl", named.replace("\"NAME\"", &quoted(MARKUP)));
     write("unknown.json", format!("{{{}:1}}", quoted(HOSTILE)));
@@ -197,6 +203,19 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
         ("prove --check proof.txt", PLAIN),
         ("audit --corpus markup.jsonl --kernel cramer", REPORT),
         ("check --corpus markup.jsonl --kernel cramer", REPORT),
+        ("rays MESH --ray 0.25,0.25,5,0,0,-1", PAGE),
+        ("rays MESH --ray HOSTILE", PLAIN),
+        (
+            "rays MESH rays.csv",
+            &["text", "json", "markdown", "html", "csv"],
+        ),
+        ("rays MESH rays.csv --answers answers.csv", PAGE),
+        ("rays MESH rays.csv --answers hostile.csv", PLAIN),
+        ("rays MESH hostile.csv", PLAIN),
+        ("rays MESH unknown.jsonl", PLAIN),
+        ("rays MESH --points hostile.csv", PLAIN),
+        ("rays MESH --make 3 --kinds HOSTILE", PLAIN),
+        ("rays HOSTILE HOSTILE", PLAIN),
         ("boxes audit -k HOSTILE", PLAIN),
         ("boxes audit -n 20 -k ize,bvh", PAGE),
         ("boxes audit -n 20 -k ize,bvh --mesh MESH", PAGE),

@@ -73,7 +73,17 @@ fn every_screen_fits_a_terminal() {
         ];
         ends(&folder, &run, 0);
     }
-    let screens: [(&[&str], usize); 11] = [
+    let rays = "0.25,0.25,5,0,0,-1\n0.25,0.25,5,0,0,1\n0,0,9,0.1,0.2,-9\n";
+    std::fs::write(folder.join("rays.csv"), rays).unwrap();
+    std::fs::write(folder.join("answers.csv"), "7,1\n-1\n-1\n").unwrap();
+    let sphere = mesh.to_str().unwrap();
+    let screens: [(&[&str], usize); 14] = [
+        (&["rays", sphere, "--ray", "0.25,0.25,5,0,0,-1"], 16),
+        (&["rays", sphere, "rays.csv"], 16),
+        (
+            &["rays", sphere, "rays.csv", "--answers", "answers.csv"],
+            34,
+        ),
         (&["audit", "-n", "150"], 42),
         (&["audit", "-n", "150", "--kernel", "moller-trumbore"], 50),
         (

@@ -215,7 +215,9 @@ fn of_triangle(
         terms.push(("t", format!("in [{t_min}, {t_max}] ({low} {high})")));
     }
     blocks.push(Block::terms(terms));
-    let sketch = triangle.sketch.as_ref().filter(|_| is_alone);
+    // A screen of many rows has no room for it.
+    let has_room = is_alone && rows.len() <= MOST_ROWS;
+    let sketch = triangle.sketch.as_ref().filter(|_| has_room);
     blocks.extend(sketch.cloned().map(Block::Listing));
     blocks.push(Block::Table(inputs(triangle, is_first)));
     blocks

@@ -9,10 +9,10 @@ use crate::oracle;
 
 /// The most columns and rows. A letter is about twice as high as wide.
 const WIDE: f64 = 44.0;
-const HIGH: f64 = 11.0;
+const HIGH: f64 = 7.0;
 
 /// A triangle of fewer rows or columns is a line.
-const LEAST: f64 = 3.0;
+const LEAST: f64 = 2.5;
 
 /// A point that is farther from the first vertex, in longest edges, is left out with the whole sketch: the triangle would be a dot.
 const FAR: f64 = 2.5;
