@@ -63,8 +63,8 @@ pub struct RaysArguments {
     #[arg(long, default_value_t = 1, requires = "make")]
     seed: u64,
 
-    /// f32 or f64: what the numbers of mesh and rays are rounded to first [default: f64; for --answers the one in which fewer
-    /// are wrong]
+    /// f32 or f64: what the numbers of mesh and rays are rounded to first [default: f64; for --answers the one in which more
+    /// are right]
     #[arg(long, value_name = "SCALAR")]
     scalar: Option<String>,
 

@@ -161,7 +161,8 @@ fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
         "{guessed}"
     );
     assert!(
-        guessed.contains(" in f64, 1 would be wrong (--scalar f64)."),
+        guessed
+            .contains(": 1 answer is right there, and 0 by the numbers as written (--scalar f64)."),
         "{guessed}"
     );
     judged("0,1\n", &["--scalar", "f64"], 1);

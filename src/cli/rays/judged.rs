@@ -38,8 +38,8 @@ struct JudgedAnswers {
     /// Rays that hit the mesh.
     hits: u64,
     counts: Vec<JudgementCount>,
-    /// How many are wrong by mesh and rays as they are written, in f64, if f32 was chosen because fewer are wrong there.
-    wrong_in_f64: Option<u64>,
+    /// How many are right by mesh and rays as they are written, in f64, if f32 was chosen because more are right there.
+    right_in_f64: Option<u64>,
     /// The number that added to the faces of wrong answers makes most of them right, if one does.
     shift: Option<i64>,
     /// How many nearest hits the program missed, or answered with another face.
@@ -52,6 +52,8 @@ struct JudgedAnswers {
 /// How often a judgement was made.
 #[derive(Serialize)]
 struct JudgementCount {
+    #[serde(skip)]
+    kind: Judgement,
     judgement: &'static str,
     meaning: &'static str,
     count: u64,
@@ -109,7 +111,7 @@ const KINDS: [(Judgement, &str, &str); 7] = [
     (Judgement::Right, "right", "the nearest face, or no hit"),
 ];
 
-/// Judges all answers: in a scalar, or else in the one in which fewer are wrong.
+/// Judges all answers: in a scalar, or else in the one in which more are right.
 pub(super) fn run(
     arguments: &RaysArguments,
     mesh: &Mesh,
@@ -124,7 +126,7 @@ pub(super) fn run(
         Some(ScalarName::F64) => in_f64()?,
         // Standard input is read once.
         None if [arguments.rays_file(), file].contains(&"-") => in_f64()?,
-        None => fewer_wrong(in_f64()?, in_f32)?,
+        None => more_right(in_f64()?, in_f32)?,
     };
     arguments.output.write(outputs, &result)?;
     Ok(match result.wrong_count() {
@@ -133,22 +135,23 @@ pub(super) fn run(
     })
 }
 
-/// The judgements in f64 if nothing is wrong there, or no less than in f32: most programs compute in one of the two.
-fn fewer_wrong(
+/// The judgements in f64 if all are right there, or no fewer than in f32: most programs compute in one of the two, and name the
+/// exact face most often by the numbers that they have.
+fn more_right(
     in_f64: JudgedAnswers,
     in_f32: impl FnOnce() -> Result<JudgedAnswers, Failure>,
 ) -> Result<JudgedAnswers, Failure> {
-    let wrong = in_f64.wrong_count();
-    if wrong == 0 {
+    let right = in_f64.right_count();
+    if right == in_f64.rays {
         return Ok(in_f64);
     }
     // Numbers that f32 does not hold are of a program that computes in f64.
     let Ok(in_f32) = in_f32() else {
         return Ok(in_f64);
     };
-    Ok(match in_f32.wrong_count() < wrong {
+    Ok(match right < in_f32.right_count() {
         true => JudgedAnswers {
-            wrong_in_f64: Some(wrong),
+            right_in_f64: Some(right),
             ..in_f32
         },
         false => in_f64,
@@ -198,7 +201,7 @@ where
             rays: self.rays.len() as u64,
             hits: hits as u64,
             counts: KINDS.iter().map(|kind| self.count(kind)).collect(),
-            wrong_in_f64: None,
+            right_in_f64: None,
             shift: self.shift(),
             lost,
             missed_by,
@@ -217,6 +220,7 @@ where
             .collect();
         behind.sort_by(f64::total_cmp);
         JudgementCount {
+            kind: *judgement,
             judgement: name,
             meaning,
             count: of_kind.count() as u64,
@@ -348,10 +352,11 @@ impl Paged for JudgedAnswers {
             wrong => format!("{} of {answers} are wrong", group_digits(wrong)),
         };
         let mut blocks = vec![Block::text(self.blame())];
-        if let Some(in_f64) = self.wrong_in_f64 {
+        if let Some(in_f64) = self.right_in_f64 {
             blocks.push(Block::text(format!(
-                "Judged by mesh and rays rounded to f32, in which the program seems to compute: by the numbers as written, in f64, {} \
-                 would be wrong (--scalar f64).",
+                "Judged by mesh and rays rounded to f32, in which the program seems to compute: {} right there, and {} by the \
+                 numbers as written (--scalar f64).",
+                number_of(self.right_count(), "answer is", "answers are"),
                 group_digits(in_f64)
             )));
         }
@@ -377,16 +382,15 @@ impl Paged for JudgedAnswers {
 }
 
 impl JudgedAnswers {
-    fn wrong(&self) -> impl Iterator<Item = &JudgementCount> {
-        let is_wrong = |name: &str| {
-            let kind = KINDS.iter().find(|(_, its, _)| *its == name);
-            kind.is_some_and(|(judgement, ..)| judgement.is_wrong())
-        };
-        self.counts.iter().filter(move |it| is_wrong(it.judgement))
+    fn wrong_count(&self) -> u64 {
+        let wrong = self.counts.iter().filter(|it| it.kind.is_wrong());
+        wrong.map(|it| it.count).sum()
     }
 
-    fn wrong_count(&self) -> u64 {
-        self.wrong().map(|it| it.count).sum()
+    /// Answers with the exact face, ties included.
+    fn right_count(&self) -> u64 {
+        let is_right = |it: &&JudgementCount| matches!(it.kind, Judgement::Right | Judgement::Tie);
+        self.counts.iter().filter(is_right).map(|it| it.count).sum()
     }
 
     /// Who lost the hits, as far as it can be told.
@@ -438,7 +442,7 @@ impl JudgedAnswers {
             Head::of("most off"),
         ];
         let row = |it: &JudgementCount| {
-            let is_wrong = self.wrong().any(|wrong| wrong.judgement == it.judgement);
+            let is_wrong = it.kind.is_wrong();
             let cells = [
                 Cell::count(it.count).broken_if(is_wrong && 0 < it.count),
                 Cell::optional(it.median, short),
