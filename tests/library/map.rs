@@ -354,7 +354,7 @@ fn an_svg_paints_every_pixel_and_may_stand_beside_others_in_a_page() {
     }
     assert!(!svg.contains(" id=") && !svg.contains("<style") && !svg.contains("url("));
     assert!(svg.contains("<title>moller-trumbore (source) in f32"));
-    assert!(svg.contains("<desc>A map of 48 by 32 pixels, "));
+    assert!(svg.contains("<desc>A map of 48 by 32 pixels. moller-trumbore (source), "));
     assert!(map::svg_document(&[map]).contains("prefers-color-scheme"));
 }
 
