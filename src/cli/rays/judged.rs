@@ -422,7 +422,7 @@ impl JudgedAnswers {
             )
         } else if BLAMED * self.lost as f64 <= most as f64 {
             format!(
-                "{start} The triangle test lost them: a built-in kernel alone misses as many ({}).",
+                "{start} The triangle test lost them: a built-in kernel alone misses nearly all of them too ({}).",
                 named.join(", ")
             )
         } else {
