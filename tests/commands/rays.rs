@@ -210,7 +210,14 @@ fn bad_input_is_named_by_file_and_line() {
     ] {
         fs::write(folder.join(name), text).unwrap();
     }
-    let cases: [(&[&str], i32, &str); 12] = [
+    // Numbers are no head.
+    fs::write(folder.join("nan.csv"), "nan,0,5,0,0,-1\n0,0,5,0,0,-1\n").unwrap();
+    let cases: [(&[&str], i32, &str); 13] = [
+        (
+            &["nan.csv"],
+            65,
+            "nan.csv: ray 0, counted from 0: the ray has a coordinate that is not finite",
+        ),
         (
             &["short.csv"],
             65,
@@ -309,6 +316,25 @@ fn rays_are_made_at_the_places_that_their_kinds_say() {
     let wrong = ["rays", "t.obj", "-q", "--make", "5", "--kinds", "vertx"];
     let (_, error) = ends(&folder, &wrong, 2);
     assert!(error.contains("did you mean 'vertex'?"), "{error}");
+    // Sizes at both ends of the range: every kind is made, and of what cannot be there is an error.
+    let sized = |size: &str| {
+        let mesh = format!("v 0 0 0\nv {size} 0 0\nv 0 {size} 0\nv 0 0 {size}\nf 1 3 2\nf 2 3 4\n");
+        fs::write(folder.join("t.obj"), mesh).unwrap();
+    };
+    for size in ["1e-322", "1e-310", "1e-40", "1e300"] {
+        sized(size);
+        let (csv, _) = ends(&folder, &words, 0);
+        fs::write(folder.join("sized.csv"), csv).unwrap();
+        ends(&folder, &["rays", "t.obj", "sized.csv", "-q"], 0);
+    }
+    let (_, error) = ends(&folder, &[&words[..], &["--scalar", "f32"]].concat(), 65);
+    assert!(error.contains("t.obj: "), "{error}");
+    sized("1e308");
+    let (_, error) = ends(&folder, &words, 65);
+    assert!(
+        error.contains("the mesh is too large for rays around it in f64"),
+        "{error}"
+    );
     fs::write(folder.join("t.obj"), "v 1 1 1\nf 1 1 1\n").unwrap();
     let (_, error) = ends(&folder, &words, 65);
     assert!(error.contains("t.obj: "), "{error}");

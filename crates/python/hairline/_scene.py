@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _hairline
-from ._truth import _numbers
+from ._truth import _columns, _numbers
 
 Judgement = IntEnum("Judgement", {name.upper(): code for code, name in enumerate(_hairline.judgements())}, module=__name__)
 Judgement.__doc__ = """The judgement of a nearest hit that a program answered: RIGHT; TIE, one of several nearest faces; NEIGHBOUR, a face
@@ -122,22 +122,14 @@ class Scene:
         return self._columns([("origin", origin, 3), ("direction", direction, 3), ("t_min", t_min, 1), ("t_max", t_max, 1)])
 
     def _columns(self, columns: "list[tuple[str, Any, int]]") -> "list[npt.NDArray[Any]]":
-        """Arrays of one length in the mesh's scalar; a lone vector or number counts for all."""
-        arrays, count = [], None
-        for name, value, width in columns:
-            array = _numbers(name, value)
-            rows = array.shape[:-1] if width == 3 else array.shape
-            if len(rows) > 1 or (width == 3 and array.shape[-1:] != (3,)):
-                expected = "(n, 3) or (3,)" if width == 3 else "(n,) or a number"
-                raise ValueError(f"{name} has the shape {array.shape}, expected {expected}")
-            if rows and count not in (None, rows[0]):
-                raise ValueError(f"{name} has {rows[0]} rows, the arguments before it {count}")
-            count = rows[0] if rows else count
+        """Contiguous arrays of one length, in the mesh's scalar."""
+        arrays, count = _columns(columns)
+        filled = []
+        for (name, _, width), array in zip(columns, arrays):
             with np.errstate(all="ignore"):
                 narrow = array.astype(self.dtype)
             if not ((narrow == array) | (array != array)).all():
                 raise ValueError(f"{name} has numbers that {self.dtype} does not hold; give vertices as float64, or round them yourself")
-            arrays.append((narrow, width))
-        total = 1 if count is None else count
-        shapes = [(total, 3) if width == 3 else (total,) for _, width in arrays]
-        return [np.ascontiguousarray(np.broadcast_to(array, shape)) for (array, _), shape in zip(arrays, shapes)]
+            shape = (count, 3) if width == 3 else (count,)
+            filled.append(np.ascontiguousarray(np.broadcast_to(narrow, shape)))
+        return filled

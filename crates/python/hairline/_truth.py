@@ -1,7 +1,7 @@
 """The exact truths of arrays of rays and triangles."""
 
 from enum import IntEnum
-from typing import Any
+from typing import Any, Iterable
 
 import numpy as np
 import numpy.typing as npt
@@ -51,9 +51,23 @@ def truth(
     >>> truth([1, 1, 1], [0, 0, -1], [0, 0, 0], [2, 0, 0], [0, 2, 0])["feature"] == Feature.EDGE_BC
     array([ True])
     """
-    arrays = [_numbers(name, value) for name, value in zip(NAMES, (origin, direction, a, b, c, t_min, t_max))]
-    count = None
-    for name, array, width in zip(NAMES, arrays, (3, 3, 3, 3, 3, 1, 1)):
+    values = (origin, direction, a, b, c, t_min, t_max)
+    arrays, count = _columns(zip(NAMES, values, (3, 3, 3, 3, 3, 1, 1)))
+    # Wider numbers ask the same question. A lone vector is narrowed if it can be.
+    with np.errstate(all="ignore"):
+        narrow = [array.dtype == np.float32 or array.size < 4 and (array == np.float32(array)).all() for array in arrays]
+    single = all(narrow) and any(array.dtype == np.float32 for array in arrays)
+    columns = [np.ascontiguousarray(array, np.float32 if single else np.float64) for array in arrays]
+    return _hairline.truth(columns, count, single).view(TRUTH)
+
+
+def _columns(columns: "Iterable[tuple[str, npt.ArrayLike, int]]") -> "tuple[list[npt.NDArray[Any]], int]":
+    """Arrays of numbers, and how many rows they have: of each argument its name, its value, and how many numbers are a row.
+
+    A lone vector or number counts for all rows; other shapes and lengths are a ValueError."""
+    arrays, count = [], None
+    for name, value, width in columns:
+        array = _numbers(name, value)
         rows = array.shape[:-1] if width == 3 else array.shape
         if len(rows) > 1 or (width == 3 and array.shape[-1:] != (3,)):
             expected = "(n, 3) or (3,)" if width == 3 else "(n,) or a number"
@@ -61,12 +75,8 @@ def truth(
         if rows and count not in (None, rows[0]):
             raise ValueError(f"{name} has {rows[0]} rows, the arguments before it {count}")
         count = rows[0] if rows else count
-    # Wider numbers ask the same question. A lone vector is narrowed if it can be.
-    with np.errstate(all="ignore"):
-        narrow = [array.dtype == np.float32 or array.size < 4 and (array == np.float32(array)).all() for array in arrays]
-    single = all(narrow) and any(array.dtype == np.float32 for array in arrays)
-    columns = [np.ascontiguousarray(array, np.float32 if single else np.float64) for array in arrays]
-    return _hairline.truth(columns, 1 if count is None else count, single).view(TRUTH)
+        arrays.append(array)
+    return arrays, 1 if count is None else count
 
 
 def _numbers(name: str, value: npt.ArrayLike) -> npt.NDArray[Any]:

@@ -243,14 +243,8 @@ fn place_of(location: &Location) -> (i8, i64) {
 }
 
 fn meetings<F: Float>(scene: &Scene<F>, ray: &Ray<F>) -> Result<Vec<Meeting>, InvalidRay> {
-    let line = ray.on(-F::infinity(), F::infinity());
     let meeting = |passage: Passage| {
-        let mut t = [f64::INFINITY, f64::NEG_INFINITY];
-        for face in &passage.faces {
-            if let Some(values) = scene.values(&line, *face)? {
-                t = [t[0].min(values.t[0]), t[1].max(values.t[1])];
-            }
-        }
+        let t = scene.ends(ray, &passage)?;
         let windings = match passage.around {
             Ok([Winding::Number(before), Winding::Number(after)]) => Some((before, after)),
             _ => None,

@@ -132,14 +132,9 @@ impl<F: Float> Scene<F> {
         face: u32,
         t: Option<f64>,
     ) -> Result<(Judgement, Option<f64>), InvalidRay> {
-        let behind = match t {
-            Some(t) => self.behind(ray, nearest, t)?,
-            None => None,
-        };
-        let edges = self.edges_to_a_t(ray, nearest);
-        let Bounds { upper, .. } = nearest.t;
+        let behind = t.map_or(Ok(None), |t| self.behind(ray, nearest, t))?;
         // Not farther behind the nearest face than anybody sees.
-        let latest = upper + VISIBLE / edges;
+        let latest = nearest.t.upper + VISIBLE / self.edges_to_a_t(ray, nearest);
         Ok(match self.is_missed_by_a_hair(ray, face, t, latest) {
             true => (Judgement::Neighbour, behind),
             false => (Judgement::Ghost, behind),
@@ -158,14 +153,12 @@ impl<F: Float> Scene<F> {
         let direction = DVec3::from(ray.direction.map(F::to_f64));
         let normal = (b - a).cross(c - a);
         let crossing = (a - origin).dot(normal) / direction.dot(normal);
-        let hair = VISIBLE * longest_edge(&triangle);
-        let is_there = |t: f64| {
-            let point = origin + t * direction;
-            distance_to(&triangle, point.into()) <= hair
-        };
-        let ends = ray.t_min.to_f64()..=ray.t_max.to_f64().min(latest);
         // A ray along the plane has no crossing of it, but a t perhaps.
-        is_there(t.unwrap_or(crossing)) && ends.contains(&t.unwrap_or(crossing))
+        let t = t.unwrap_or(crossing);
+        let point = origin + t * direction;
+        let ends = ray.t_min.to_f64()..=ray.t_max.to_f64().min(latest);
+        let hair = VISIBLE * longest_edge(&triangle);
+        ends.contains(&t) && distance_to(&triangle, point.into()) <= hair
     }
 
     /// How many longest edges of the nearest faces the ray covers while t grows by 1.
@@ -185,10 +178,10 @@ impl<F: Float> Scene<F> {
         let later = match (upper - lower) * edges <= TELLING {
             true => t - lower.midpoint(upper),
             // The bounds are too wide to say it.
-            false => match self.values(ray, nearest.faces[0])? {
-                Some(exact) => t - exact.t[0],
-                None => return Ok(None),
-            },
+            false => {
+                let exact = self.values(ray, nearest.faces[0])?;
+                exact.map_or(f64::NAN, |exact| t - exact.t[0])
+            }
         };
         // Faces that are points have no edge to measure by.
         let behind = if later == 0.0 { 0.0 } else { later * edges };

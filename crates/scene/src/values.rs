@@ -1,6 +1,7 @@
 //! The numbers of a hit, exactly or correctly rounded.
 
 use crate::found::{Common, End};
+use crate::passage::Passage;
 use crate::ray::{InvalidRay, Ray};
 use crate::rounded::rounded;
 use crate::scene::Scene;
@@ -58,6 +59,20 @@ impl<F: Float> Scene<F> {
             facing,
             uv,
         }))
+    }
+
+    /// The first and the last t of a passage as the nearest doubles. An error if the ray means nothing.
+    pub fn ends(&self, ray: &Ray<F>, passage: &Passage) -> Result<[f64; 2], InvalidRay> {
+        // A passage may begin before the interval, or end behind it.
+        let line = ray.on(-F::infinity(), F::infinity());
+        let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+        for face in &passage.faces {
+            if let Some(values) = self.values(&line, *face)? {
+                // Rounding keeps the order.
+                ends = [ends[0].min(values.t[0]), ends[1].max(values.t[1])];
+            }
+        }
+        Ok(ends)
     }
 
     /// The numbers of a face's hit as the nearest doubles. None if the ray does not meet the face; an error if the ray

@@ -14,8 +14,8 @@ use crate::report::explain::misused_formula;
 /// How many unexpected classes of a kernel are tried to find the formula that it computes.
 const TRIED: usize = 10;
 
-/// How many cases are shortened, of which the shortest is shown.
-const SHORTENED: usize = 6;
+/// How many cases are shortened, of which the shortest is shown: each asks the kernel some 300 times.
+const SHORTENED: usize = 3;
 
 /// The formulas that kernels of one's own with unexpected answers compute, but for an epsilon or fused products.
 pub(super) fn computed_formulas(plan: &Plan, conformance: &Conformance) -> Vec<ComputedFormula> {

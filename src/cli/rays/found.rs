@@ -134,8 +134,8 @@ impl Paged for FoundHits {
         let rows = self.rays.iter().enumerate().take(SHOWN).map(row).collect();
         let mut blocks = vec![
             Block::text(format!(
-                "{} meet several faces at the same t, where each is a right answer.",
-                group_digits(ties as u64)
+                "{} several faces at the same t, where each is a right answer.",
+                number_of(ties as u64, "ray meets", "rays meet")
             )),
             Block::Table(Table::new(heads, rows)),
         ];

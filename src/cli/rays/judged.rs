@@ -1,5 +1,7 @@
 //! The answers of a program to a file of rays, judged.
 
+mod page;
+
 use super::RaysArguments;
 use super::found::of_all;
 use super::one::{case_of, explain_command};
@@ -11,10 +13,9 @@ use crate::cli::exit::{Failure, Status};
 use crate::corpus::lines::AnyCase;
 use crate::files::mesh::Mesh;
 use crate::kernel::{KERNELS, Scalar, Verdict, verdicts_of};
-use crate::record::{group_digits, number_of};
 use crate::report::Format;
-use crate::report::page::{Block, Cell, Head, Item, Page, Paged, Row, Table, Tone};
 use hairline_scene::{Answer, Judged, Judgement, Ray};
+use page::short;
 use serde::Serialize;
 use std::cmp::Reverse;
 
@@ -23,12 +24,6 @@ const SHOWN: usize = 3;
 
 /// The fewest wrong faces by which a shift of their numbers is known.
 const FEWEST: usize = 5;
-
-/// How many kernels a sentence names.
-const NAMED: usize = 3;
-
-/// The least share of lost hits that a kernel alone misses which says that the triangle test lost them.
-const BLAMED: f64 = 0.9;
 
 /// How a program did.
 #[derive(Serialize)]
@@ -181,6 +176,19 @@ where
     Ok(run.result())
 }
 
+impl JudgedAnswers {
+    fn wrong_count(&self) -> u64 {
+        let wrong = self.counts.iter().filter(|it| it.kind.is_wrong());
+        wrong.map(|it| it.count).sum()
+    }
+
+    /// Answers with the exact face, ties included.
+    fn right_count(&self) -> u64 {
+        let is_right = |it: &&JudgementCount| matches!(it.kind, Judgement::Right | Judgement::Tie);
+        self.counts.iter().filter(is_right).map(|it| it.count).sum()
+    }
+}
+
 /// Rays with their answers and judgements, each list in the order of the rays.
 struct JudgedRun<'a, F: Scalar> {
     mesh: &'a Mesh,
@@ -329,128 +337,5 @@ where
         };
         let is_most = |shift: &i64| FEWEST <= wrong.len() && wrong.len() < 2 * makes_right(*shift);
         [-1, 1].into_iter().find(is_most)
-    }
-}
-
-fn short(number: f64) -> String {
-    if number == 0.0 {
-        return "0".to_owned();
-    }
-    match (1e-3..1e6).contains(&number.abs()) {
-        true => format!("{number:.3}"),
-        false => format!("{number:.2e}"),
-    }
-}
-
-impl Paged for JudgedAnswers {
-    fn page(&self) -> Page {
-        let wrong = self.wrong_count();
-        let answers = number_of(self.rays, "answer", "answers");
-        let title = match wrong {
-            0 => format!("None of {answers} is wrong"),
-            1 => format!("1 of {answers} is wrong"),
-            wrong => format!("{} of {answers} are wrong", group_digits(wrong)),
-        };
-        let mut blocks = vec![Block::text(self.blame())];
-        if let Some(in_f64) = self.right_in_f64 {
-            blocks.push(Block::text(format!(
-                "Judged by mesh and rays rounded to f32, in which the program seems to compute: {} right there, and {} by the \
-                 numbers as written (--scalar f64).",
-                number_of(self.right_count(), "answer is", "answers are"),
-                group_digits(in_f64)
-            )));
-        }
-        blocks.push(Block::Table(self.table()));
-        let shown = self.counts.iter().filter(|it| 0 < it.count);
-        blocks.push(Block::terms(
-            shown.map(|it| (it.judgement, it.meaning.to_owned())),
-        ));
-        let items = self.worst.iter().map(|it| Item {
-            text: it.text.clone(),
-            lines: it.command.iter().cloned().collect(),
-            ..Item::default()
-        });
-        let title_of_worst = "Wrong answers (rays and faces are counted from 0)";
-        blocks.extend(Block::items(title_of_worst, SHOWN, items.collect()));
-        Page {
-            command: "rays",
-            title,
-            tone: if wrong == 0 { Tone::Good } else { Tone::Bad },
-            blocks,
-        }
-    }
-}
-
-impl JudgedAnswers {
-    fn wrong_count(&self) -> u64 {
-        let wrong = self.counts.iter().filter(|it| it.kind.is_wrong());
-        wrong.map(|it| it.count).sum()
-    }
-
-    /// Answers with the exact face, ties included.
-    fn right_count(&self) -> u64 {
-        let is_right = |it: &&JudgementCount| matches!(it.kind, Judgement::Right | Judgement::Tie);
-        self.counts.iter().filter(is_right).map(|it| it.count).sum()
-    }
-
-    /// Who lost the hits, as far as it can be told.
-    fn blame(&self) -> String {
-        if let Some(shift) = self.shift {
-            return format!(
-                "The faces are numbered otherwise: with {shift:+} most wrong ones are right. Numbers count from 0 here, in the order of the \
-                 file."
-            );
-        }
-        if self.lost == 0 {
-            return "No hit is lost.".to_owned();
-        }
-        let named: Vec<String> = self
-            .missed_by
-            .iter()
-            .filter(|it| 0 < it.count)
-            .take(NAMED)
-            .map(|it| format!("{} {}", it.kernel, group_digits(it.count)))
-            .collect();
-        let most = self.missed_by.first().map_or(0, |it| it.count);
-        let lost = number_of(self.lost, "nearest hit is", "nearest hits are");
-        let start = format!("{lost} lost: missed, or another face is answered.");
-        let places =
-            "a tree, a box, a transform, an end of the interval, or how faces are numbered";
-        if most == 0 {
-            format!(
-                "{start} No built-in kernel alone misses one of them on its face, so look at {places}."
-            )
-        } else if BLAMED * self.lost as f64 <= most as f64 {
-            format!(
-                "{start} The triangle test lost them: a built-in kernel alone misses nearly all of them too ({}).",
-                named.join(", ")
-            )
-        } else {
-            format!(
-                "{start} A built-in kernel alone misses so many of them: {}. For the others look at {places}.",
-                named.join(", ")
-            )
-        }
-    }
-
-    fn table(&self) -> Table {
-        let heads = vec![
-            Head::default(),
-            Head::of("answers"),
-            Head::of("median off")
-                .about("how far behind the exact point, in longest edges of the nearest face"),
-            Head::of("most off"),
-        ];
-        let row = |it: &JudgementCount| {
-            let is_wrong = it.kind.is_wrong();
-            let cells = [
-                Cell::count(it.count).broken_if(is_wrong && 0 < it.count),
-                Cell::optional(it.median, short),
-                Cell::optional(it.most, short),
-            ];
-            Row::new(it.judgement, cells)
-        };
-        let shown = self.counts.iter().filter(|it| 0 < it.count);
-        Table::new(heads, shown.map(row).collect())
     }
 }

@@ -118,13 +118,22 @@ impl<F: Scalar> MeshTargets<F> {
         }
         let half = [0, 1, 2].map(|axis| high[axis] / 2.0 - low[axis] / 2.0);
         let half = half.into_iter().fold(0.0, f64::max);
-        if !half.is_finite() || half == 0.0 {
+        if half == 0.0 || triangles.is_empty() {
             let message = "there is no face of a size to aim rays at";
+            return Err(InputError::of(&mesh.name, message).into());
+        }
+        let middle = [0, 1, 2].map(|axis| low[axis].midpoint(high[axis]));
+        let farthest = middle
+            .into_iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        // Room for a direction from one side of it to the other.
+        if !F::from_f64(2.0 * (farthest + AROUND * half)).is_finite() {
+            let message = format!("the mesh is too large for rays around it in {}", F::NAME);
             return Err(InputError::of(&mesh.name, message).into());
         }
         Ok(MeshTargets {
             triangles,
-            middle: [0, 1, 2].map(|axis| low[axis].midpoint(high[axis])),
+            middle,
             half,
         })
     }
@@ -133,8 +142,8 @@ impl<F: Scalar> MeshTargets<F> {
         let draw = &mut Draw::new(&format!("rays-{kind}"), seed, index);
         match kind {
             RayKind::Random => {
-                let origin = self.around(draw);
-                let target = self.within(draw);
+                let origin = self.point(draw, AROUND);
+                let target = self.point(draw, 1.0);
                 through(origin, target)
             }
             RayKind::Vertex => {
@@ -175,16 +184,7 @@ impl<F: Scalar> MeshTargets<F> {
         face
     }
 
-    /// A point in the mesh's box, if that is a cube.
-    fn within(&self, draw: &mut Draw) -> [F; 3] {
-        self.point(draw, 1.0)
-    }
-
-    /// A point around the mesh.
-    fn around(&self, draw: &mut Draw) -> [F; 3] {
-        self.point(draw, AROUND)
-    }
-
+    /// A point in a cube around the middle of the mesh, so many times as large as its box.
     fn point(&self, draw: &mut Draw, factor: f64) -> [F; 3] {
         self.middle.map(|middle| {
             let offset: f64 = draw.symmetric();
@@ -195,9 +195,9 @@ impl<F: Scalar> MeshTargets<F> {
     /// A ray that has a point at t = 1, exactly where its origin is not rounded: the direction has few digits.
     fn at(&self, target: [F; 3], draw: &mut Draw) -> Ray<F> {
         let step = power_of_two_below(AROUND * self.half / STEPS as f64);
-        let mut direction = [F::zero(); 3];
-        while direction.iter().all(|x| x.is_zero()) {
-            direction = [(); 3].map(|()| F::from_f64(step * draw.integer(-STEPS, STEPS) as f64));
+        let direction = [(); 3].map(|()| F::from_f64(step * draw.integer(-STEPS, STEPS) as f64));
+        if direction.iter().all(|x| x.is_zero()) {
+            return through(self.point(draw, AROUND), target);
         }
         let origin = [0, 1, 2].map(|axis| target[axis] - direction[axis]);
         Ray::new(origin, direction)
@@ -208,7 +208,7 @@ impl<F: Scalar> MeshTargets<F> {
         let is_at_vertex = draw.coin();
         let mut origin = match is_at_vertex {
             true => self.face(draw)[0],
-            false => self.within(draw),
+            false => self.point(draw, 1.0),
         };
         let mut direction = [F::zero(); 3];
         let (way, start) = match draw.coin() {
@@ -237,7 +237,7 @@ fn between<F: Scalar>(from: [F; 3], to: [F; 3], share: f64) -> [F; 3] {
     })
 }
 
-/// The largest power of two that is not above a size.
+/// The largest power of two that is not above a size; 0 for a subnormal one.
 fn power_of_two_below(size: f64) -> f64 {
     let digits = (1 << 52) - 1;
     f64::from_bits(size.to_bits() & !digits)

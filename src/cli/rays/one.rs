@@ -116,15 +116,7 @@ fn meeting<F: Scalar>(
     ray: &Ray<F>,
     passage: Passage,
 ) -> Result<Meeting, InvalidRay> {
-    // A passage may begin before the interval, or end behind it.
-    let line = ray.on(-F::infinity(), F::infinity());
-    let mut t = [f64::INFINITY, f64::NEG_INFINITY];
-    for face in &passage.faces {
-        if let Some(values) = scene.values(&line, *face)? {
-            // Rounding keeps the order.
-            t = [t[0].min(values.t[0]), t[1].max(values.t[1])];
-        }
-    }
+    let t = scene.ends(ray, &passage)?;
     let (kind, open) = match passage.crosses() {
         Ok(true) => ("crosses", None),
         Ok(false) => ("touches", None),

@@ -81,9 +81,7 @@ fn lines<T>(
     for line in TextLines::new(reader, file, LONGEST_LINE) {
         let (number, text) = line?;
         let text = text.trim();
-        let is_head = number == 1 && text.starts_with(|c: char| c.is_ascii_alphabetic());
-        let is_word = NO_FACE.contains(&text);
-        if text.starts_with('#') || is_head && !is_word {
+        if text.starts_with('#') || number == 1 && is_head(text) {
             continue;
         }
         let one = read(text).map_err(|message| InputError::at(file, number, message))?;
@@ -93,6 +91,17 @@ fn lines<T>(
         return Err(InputError::of(file, format!("there are no {what} in it")).into());
     }
     Ok(all)
+}
+
+/// True of a line of names: nothing that stands for a number, or for no face.
+fn is_head(line: &str) -> bool {
+    let is_name = |word: &str| {
+        let is_number = number::parse::<f64>(word).is_ok();
+        word.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_number
+    };
+    words(line)
+        .first()
+        .is_some_and(|first| is_name(first) && !NO_FACE.contains(first))
 }
 
 /// The words between commas, semicolons and spaces; between two commas may be none.

@@ -14,6 +14,7 @@ use crate::arith::ScalarName;
 pub use build::explain;
 pub use nearest::misused_formula;
 pub use verdict::Together;
+pub(crate) use verdict::number;
 
 use crate::corpus::truth_json::TruthLine;
 use serde::Serialize;

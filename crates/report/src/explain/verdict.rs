@@ -41,7 +41,7 @@ impl<F: Scalar> Together<'_, F> {
 }
 
 /// The fewest digits that read back as the number in its scalar.
-pub(super) fn number<F: Float>(x: F) -> String {
+pub(crate) fn number<F: Float>(x: F) -> String {
     plain(&format!("{x:e}"))
 }
 

@@ -5,6 +5,7 @@ use super::relations;
 use super::remedies::remedies;
 use crate::arith::Float;
 use crate::case::Case;
+use crate::explain::number;
 use crate::judge::Class;
 use crate::page::{Block, Cell, Head, Item, Items, Row, Table};
 use hairline_record::{
@@ -193,16 +194,7 @@ fn short_case(conformance: &Conformance, short: &ShortCase) -> Vec<Block> {
 
 /// A case's vectors, one a line, and its interval if it is not from 0 to infinity.
 fn listing<F: Float>(case: &Case<F>) -> String {
-    let shortest = |number: F| {
-        let plain = number.to_string();
-        let scientific = format!("{number:e}");
-        if scientific.len() < plain.len() {
-            scientific
-        } else {
-            plain
-        }
-    };
-    let vectors = case.vectors().map(|vector| vector.map(shortest));
+    let vectors = case.vectors().map(|vector| vector.map(number));
     let widths: [usize; 3] = array::from_fn(|axis| {
         let lengths = vectors.iter().map(|vector| vector[axis].len());
         lengths.max().unwrap_or_default()
@@ -220,8 +212,8 @@ fn listing<F: Float>(case: &Case<F>) -> String {
     if t_min != F::zero() || t_max != F::infinity() {
         lines.push(format!(
             "t within   {} and {}",
-            shortest(t_min),
-            shortest(t_max)
+            number(t_min),
+            number(t_max)
         ));
     }
     lines.join("\n")
