@@ -92,7 +92,7 @@ fn worse(record: &Record, conformance: &Conformance) -> String {
     changed(conformance, lead)
 }
 
-/// `mine (own) has another epsilon parallel than known: 1e-5, not 1e-6`.
+/// `mine has another epsilon parallel than known: 1e-5, not 1e-6`.
 fn set_otherwise(change: &RowChange) -> String {
     let RowChange {
         kernel,
@@ -124,8 +124,11 @@ fn failing(unexpected: &[Deviation], first: &Deviation) -> String {
         FindingKind::Panic => "panics",
         _ => "gives no answer",
     };
-    let cases = number_of(more, "case", "cases");
-    format!("{} {does} on {cases} more than known", first.kernel)
+    let cases = match more {
+        0 => "other cases".to_owned(),
+        more => format!("{} more", number_of(more, "case", "cases")),
+    };
+    format!("{} {does} on {cases} than known", first.kernel)
 }
 
 /// How much changed, where no reason is known.

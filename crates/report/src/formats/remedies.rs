@@ -38,7 +38,7 @@ pub(super) fn remedies(record: &Record, conformance: &Conformance) -> Vec<Item> 
     }
     if !relations::mistakes(record).is_empty() {
         texts.push(
-            "Mend the mistake of the first line first: what else changed may go with it."
+            "Mend the mistake that is named above first: what else changed may go with it."
                 .to_owned(),
         );
     }
