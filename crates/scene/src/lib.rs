@@ -70,7 +70,7 @@ mod judge;
 pub use bounds::Bounds;
 pub use closed::Closed;
 pub use define::{DefinedHit, define, nearest_of};
-pub use judge::{Answer, Judged, Judgement, NamedHit, NamedPlace, VISIBLE};
+pub use judge::{Answer, Judged, Judgement, VISIBLE};
 pub use mesh::{MeshError, Triangle, triangles};
 pub use passage::{Location, Passage};
 pub use ray::{InvalidRay, Ray};

@@ -6,7 +6,6 @@ mod solids;
 mod definition;
 mod extremes;
 mod judge;
-mod judge_hits;
 mod laws;
 mod passages;
 mod reports;
