@@ -2,9 +2,12 @@
 
 mod drawn;
 mod solids;
+mod spheres;
 
+mod columns;
 mod definition;
 mod extremes;
+mod inside_reports;
 mod judge;
 mod laws;
 mod passages;
