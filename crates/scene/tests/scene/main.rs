@@ -3,6 +3,7 @@
 mod drawn;
 mod solids;
 mod spheres;
+mod track;
 
 mod columns;
 mod definition;
@@ -12,4 +13,5 @@ mod judge;
 mod laws;
 mod passages;
 mod reports;
+mod tracking;
 mod values;
