@@ -17,6 +17,12 @@
 //! `hairline_core`. With computed T̂, D̂, q = fl(T̂/D̂) and their errors, t is off from T̂/D̂ by at most
 //! (T_error + |T̂/D̂|·D_error) / (|D̂| - D_error). Six roundings and those of q, below 16u relative, are added, for q and the
 //! ends of the interval 4u·|q|, and 2^-1000 for a quotient that underflows.
+//!
+//! **Rounded vertices.** A mesh that a matrix puts into the world has vertices that are off by up to δ on each axis, so e, f, s
+//! and a-o are off by 2δ more. All sizes above are then taken larger by E ≥ 1.5δ/u. A weight's six products of components below x
+//! and y move by 12δ(x + y + 2δ) at most. Their bound grows by 64u·E(x + y + E), of which the roundings, as 56u, leave
+//! 8u·E(x + y + E), and that is more. In D and T no rounding uses what E adds to the permanents, and 2δ ≤ 8u·E. A product
+//! that underflows is off by some 2^-1074, which is nothing next to u·E² with E ≥ 2^-150.
 
 use crate::bounds::Bounds;
 use crate::mesh::Triangle;
@@ -48,9 +54,10 @@ pub fn are_moderate(numbers: &[f64]) -> bool {
     numbers.iter().all(is_moderate)
 }
 
-/// Sorts a triangle by the signs of its weights. `direction_size` is the largest size of a component of the direction.
+/// Sorts a triangle by the signs of its weights. `direction_size` is the largest size of a component of the direction, and
+/// `more` the E of rounded vertices.
 #[inline(always)]
-pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> Sorted {
+pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>, more: f64) -> Sorted {
     let e = minus(b, a);
     let f = minus(c, a);
     let s = minus(&ray.origin, a);
@@ -58,7 +65,7 @@ pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> S
     let all = dot(&e, &p);
     let weight_b = dot(&s, &p);
     let scale = 64.0 * U * direction_size;
-    let (e_size, f_size, s_size) = (size(&e), size(&f), size(&s));
+    let (e_size, f_size, s_size) = (size(&e) + more, size(&f) + more, size(&s) + more);
     let error_b = scale * s_size * f_size;
     let error_all = scale * e_size * f_size;
     // Most faces are missed, and many are done here: the weight of b is surely less than nothing, or more than all.
@@ -90,14 +97,15 @@ pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> S
 }
 
 /// The t at which a line meets the plane of a triangle, and the side from which; none if the line may be parallel, or if t
-/// overflows.
+/// overflows. `more` is the E of rounded vertices.
 #[inline(always)]
-pub fn plane_t(ray: &Ray<f64>, [a, b, c]: &Triangle<f64>) -> Option<(Bounds, Facing)> {
+pub fn plane_t(ray: &Ray<f64>, [a, b, c]: &Triangle<f64>, more: f64) -> Option<(Bounds, Facing)> {
+    let larger = |x: f64| x.abs() + more;
     let e = minus(b, a);
     let f = minus(c, a);
     let to_a = minus(a, &ray.origin);
     let normal = cross(&e, &f);
-    let permanent = cross_permanent(&e, &f);
+    let permanent = cross_permanent(&e.map(larger), &f.map(larger));
     let capital_d = dot(&ray.direction, &normal);
     let d_error = 8.0 * U * dot(&ray.direction.map(f64::abs), &permanent);
     let d_size = capital_d.abs();
@@ -105,7 +113,7 @@ pub fn plane_t(ray: &Ray<f64>, [a, b, c]: &Triangle<f64>) -> Option<(Bounds, Fac
         return None;
     }
     let capital_t = dot(&to_a, &normal);
-    let t_error = 16.0 * U * dot(&to_a.map(f64::abs), &permanent);
+    let t_error = 16.0 * U * dot(&to_a.map(larger), &permanent);
     let t = capital_t / capital_d;
     if t.is_infinite() {
         return None;
@@ -143,10 +151,9 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
     ]
 }
 
-/// The cross product with sums of absolute values.
+/// The cross product with sums, of vectors without a negative component.
 #[inline(always)]
 fn cross_permanent(a: &Vector, b: &Vector) -> Vector {
-    let [a, b] = [a.map(f64::abs), b.map(f64::abs)];
     [
         a[1] * b[2] + a[2] * b[1],
         a[2] * b[0] + a[0] * b[2],
@@ -188,7 +195,7 @@ mod tests {
             let Truth::Transversal(crossing) = truth(&ray.against(&triangle)) else {
                 continue;
             };
-            match sort(&ray, size(&direction), &triangle) {
+            match sort(&ray, size(&direction), &triangle, 0.0) {
                 Sorted::Misses => {
                     assert_eq!(crossing.feature, Feature::Outside, "{ray:?} {triangle:?}");
                     misses += 1;

@@ -1,6 +1,7 @@
 //! Tests of whole scenes.
 
 mod drawn;
+mod instanced;
 mod solids;
 mod spheres;
 mod track;
@@ -9,6 +10,7 @@ mod columns;
 mod definition;
 mod extremes;
 mod inside_reports;
+mod instances;
 mod judge;
 mod laws;
 mod passages;
