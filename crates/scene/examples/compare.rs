@@ -1,14 +1,15 @@
 //! Compares the fast answers with the definition on as many random scenes as you like:
 //! `cargo run --release -p hairline-scene --example compare -- 100000 7` (rays of each scalar, seed). With the word `walk`
 //! behind them only the faces that the truths of single triangles say are met are asked by definition, which is much faster.
-//! With `instances` behind that word the scenes are of instances.
+//! With `instances` behind that word the scenes are of instances, and with the path of an OBJ file behind it the scene is that file's.
 
 #[path = "../tests/scene/drawn.rs"]
 mod drawn;
 #[path = "../tests/scene/instanced.rs"]
 mod instanced;
 
-use drawn::{Reference, compare_many};
+use drawn::{Drawn, Reference, compare_many, compare_mesh};
+use hairline_core::Float;
 use instanced::compare_instances;
 
 fn main() {
@@ -36,6 +37,42 @@ fn main() {
             let wide = compare_instances::<f64>(seed, rays, reference);
             println!("f64: no difference, {wide:?}");
         }
-        Some(word) => panic!("unknown scenes '{word}': there are instances"),
+        Some(path) => {
+            let narrow = compare_mesh(&read_obj::<f32>(path), seed, rays);
+            println!("f32: no difference, {narrow:?}");
+            let wide = compare_mesh(&read_obj::<f64>(path), seed, rays);
+            println!("f64: no difference, {wide:?}");
+        }
     }
+}
+
+/// The vertices and faces of an OBJ file; polygons as fans.
+fn read_obj<F: Float>(path: &str) -> Drawn<F> {
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    let text = std::fs::read_to_string(path).expect("a file");
+    for line in text.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["v", x, y, z, ..] => {
+                let number = |x: &str| F::from_f64(x.parse().expect("a coordinate"));
+                vertices.push([x, y, z].map(number));
+            }
+            ["f", ref corners @ ..] => {
+                let number = |corner: &&str| {
+                    let vertex = corner.split('/').next()?.parse::<u32>().ok()?;
+                    vertex.checked_sub(1)
+                };
+                let corners: Option<Vec<u32>> = corners.iter().map(number).collect();
+                let corners = corners.expect("numbers of vertices, from 1");
+                faces.extend(
+                    corners
+                        .windows(2)
+                        .skip(1)
+                        .map(|pair| [corners[0], pair[0], pair[1]]),
+                );
+            }
+            _ => {}
+        }
+    }
+    Drawn { vertices, faces }
 }
