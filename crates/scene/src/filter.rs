@@ -171,27 +171,32 @@ pub fn size(a: &Vector) -> f64 {
 mod tests {
     use super::*;
     use hairline_core::case::Draw;
+    use hairline_core::oracle::exact_values;
     use hairline_core::{Feature, Truth, truth};
+    use num_rational::BigRational;
+
+    /// A ray near the plane of a triangle but for rounding, its origin near a vertex; in every other case a little farther.
+    fn drawn(draw: &mut Draw) -> (Ray<f64>, Triangle<f64>) {
+        let [a, b, c]: [Vector; 3] = [(); 3].map(|()| draw.point());
+        let near = 2f64.powi(-(draw.below(30) as i32));
+        let mut along = |size: f64| {
+            let [x, y] = [(); 2].map(|()| size * draw.symmetric::<f64>());
+            [0, 1, 2].map(|i| x * (b[i] - a[i]) + y * (c[i] - a[i]))
+        };
+        let (step, mut direction) = (along(near), along(1.0));
+        let lift = 2f64.powi(-(draw.below(50) as i32)) * draw.below(2) as f64;
+        let aside: Vector = draw.point();
+        direction = [0, 1, 2].map(|i| direction[i] + lift * aside[i]);
+        let ray = Ray::new([0, 1, 2].map(|i| a[i] + step[i]), direction);
+        (ray, [a, b, c])
+    }
 
     #[test]
     fn what_is_sure_is_true_of_rays_that_all_but_lie_in_the_plane() {
         let (mut misses, mut crossings) = (0, 0);
         for index in 0..200_000 {
-            let mut draw = Draw::new("flat", 1, index);
-            let [a, b, c]: [Vector; 3] = [(); 3].map(|()| draw.point());
-            // Near the plane but for rounding: the origin near a vertex, and the direction.
-            let near = 2f64.powi(-(draw.below(30) as i32));
-            let mut along = |size: f64| {
-                let [x, y] = [(); 2].map(|()| size * draw.symmetric::<f64>());
-                [0, 1, 2].map(|i| x * (b[i] - a[i]) + y * (c[i] - a[i]))
-            };
-            let (step, mut direction) = (along(near), along(1.0));
-            // In every other case a little more than that.
-            let lift = 2f64.powi(-(draw.below(50) as i32)) * draw.below(2) as f64;
-            let aside: Vector = draw.point();
-            direction = [0, 1, 2].map(|i| direction[i] + lift * aside[i]);
-            let ray = Ray::new([0, 1, 2].map(|i| a[i] + step[i]), direction);
-            let triangle = [a, b, c];
+            let (ray, triangle) = drawn(&mut Draw::new("flat", 1, index));
+            let direction = ray.direction;
             let Truth::Transversal(crossing) = truth(&ray.against(&triangle)) else {
                 continue;
             };
@@ -208,5 +213,37 @@ mod tests {
             }
         }
         assert!(1000 < misses && 100 < crossings, "{misses} {crossings}");
+    }
+
+    #[test]
+    fn bounds_of_t_hold_t_in_all_sizes() {
+        let (mut bounded, mut narrow) = (0, 0);
+        for index in 0..20_000 {
+            let mut draw = Draw::new("bounds", 1, index);
+            let (ray, triangle) = drawn(&mut draw);
+            // Every other one is moved far away, so that roundings are large.
+            let [size, speed] = [(); 2].map(|()| 2f64.powi(draw.integer(-40, 40) as i32));
+            let away: Vector = draw.point();
+            let far = [0.0, 2f64.powi(draw.below(20) as i32)][draw.below(2)];
+            let moved = |point: Vector| [0, 1, 2].map(|i| size * (point[i] + far * away[i]));
+            let ray = Ray::new(moved(ray.origin), ray.direction.map(|x| speed * x));
+            let triangle = triangle.map(moved);
+            let case = ray.against(&triangle).on(f64::NEG_INFINITY, f64::INFINITY);
+            let truth = truth(&case);
+            let Some((bounds, facing)) = plane_t(&ray, &triangle, 0.0) else {
+                continue;
+            };
+            let Truth::Transversal(crossing) = truth else {
+                panic!("{ray:?} {triangle:?}");
+            };
+            assert_eq!(facing, crossing.facing, "{ray:?} {triangle:?}");
+            let t = exact_values(&case, &truth).t.expect("a crossing");
+            let float = |x: f64| BigRational::from_float(x).expect("a finite bound");
+            assert!(float(bounds.lower) <= t, "{ray:?} {triangle:?}");
+            assert!(t <= float(bounds.upper), "{ray:?} {triangle:?}");
+            bounded += 1;
+            narrow += u32::from(bounds.upper - bounds.lower < 1e-3 * bounds.upper.abs());
+        }
+        assert!(10_000 < bounded && 2_000 < narrow, "{bounded} {narrow}");
     }
 }

@@ -105,3 +105,14 @@ fn a_face_that_is_a_point_is_right_at_its_t() {
     assert_eq!(judged(&with_face, 3.0 + 1e-6), Judgement::Tie);
     assert_eq!(judged(&with_face, 3.1), Judgement::WrongT);
 }
+
+#[test]
+fn wrong_is_what_somebody_sees() {
+    use Judgement::{Farther, Ghost, Lost, Neighbour, Right, Tie, WrongT};
+    for (judgements, is_wrong) in [
+        (&[Right, Tie, Neighbour][..], false),
+        (&[WrongT, Lost, Farther, Ghost][..], true),
+    ] {
+        assert!(judgements.iter().all(|it| it.is_wrong() == is_wrong));
+    }
+}
