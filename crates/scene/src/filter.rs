@@ -225,8 +225,12 @@ mod tests {
             let [size, speed] = [(); 2].map(|()| 2f64.powi(draw.integer(-40, 40) as i32));
             let away: Vector = draw.point();
             let far = [0.0, 2f64.powi(draw.below(20) as i32)][draw.below(2)];
-            let moved = |point: Vector| [0, 1, 2].map(|i| size * (point[i] + far * away[i]));
-            let ray = Ray::new(moved(ray.origin), ray.direction.map(|x| speed * x));
+            let stretch = [(); 3].map(|()| 2f64.powi(-(draw.below(24) as i32)));
+            let stretched = |v: Vector| [0, 1, 2].map(|i| stretch[i] * v[i]);
+            let moved =
+                |point: Vector| stretched([0, 1, 2].map(|i| size * (point[i] + far * away[i])));
+            let direction = stretched(ray.direction.map(|x| speed * x));
+            let ray = Ray::new(moved(ray.origin), direction);
             let triangle = triangle.map(moved);
             let case = ray.against(&triangle).on(f64::NEG_INFINITY, f64::INFINITY);
             let truth = truth(&case);

@@ -90,3 +90,88 @@ fn apply(matrix: &Matrix<f64>, vertex: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = vertex;
     matrix.map(|[a, b, c, moved]| a * x + b * y + c * z + moved)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_core::case::Draw;
+    use num_rational::BigRational;
+    use num_traits::One;
+
+    fn rational(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
+    #[test]
+    fn roundings_are_within_the_margin_and_vertices_in_their_box() {
+        let mut largest_share = 0.0f64;
+        for index in 0..1000 {
+            let mut draw = Draw::new("placed", 1, index);
+            let most = [0, 8, 480, 1074, 540][index as usize % 5];
+            // The last ones have products that underflow, and nothing else.
+            let is_tiny = most == 540;
+            let mut number = || {
+                let any = draw.integer(-most, most) as i32;
+                let exponents = [0, 0, 0, any, -most as i32];
+                let exponent = if is_tiny {
+                    exponents[4]
+                } else {
+                    draw.pick(&exponents)
+                };
+                scale_by_power_of_two(draw.symmetric(), exponent)
+            };
+            let mut matrix = [(); 3].map(|()| [(); 4].map(|()| number()));
+            if is_tiny {
+                matrix.iter_mut().for_each(|row| row[3] = 0.0);
+            }
+            let triangle = [(); 3].map(|()| [(); 3].map(|()| number()));
+            let Some(placed) = Placed::new(matrix, [triangle].into_iter()) else {
+                continue;
+            };
+            let rounded = placed.rounded(&triangle);
+            let (exact, unit) = placed.exact(&triangle);
+            let exponent = -crate::aabb::exponent_of(placed.largest()).unwrap();
+            let bounds = placed.around(&triangle, exponent);
+            let of_scale = |bound: f32| {
+                let power = BigRational::from(BigInt::one() << exponent.unsigned_abs());
+                let bound = rational(bound.into());
+                if exponent < 0 {
+                    bound * power
+                } else {
+                    bound / power
+                }
+            };
+            for corner in 0..3 {
+                for axis in 0..3 {
+                    let power = BigRational::from(BigInt::one() << unit.unsigned_abs());
+                    let integer = BigRational::from(exact[corner][axis].clone());
+                    let x = if unit < 0 {
+                        integer / power
+                    } else {
+                        integer * power
+                    };
+                    // By the definition.
+                    let mut sum = rational(matrix[axis][3]);
+                    for k in 0..3 {
+                        sum += rational(matrix[axis][k]) * rational(triangle[corner][k]);
+                    }
+                    assert_eq!(x, sum);
+                    let off = x.clone() - rational(rounded[corner][axis]);
+                    let off = if off < rational(0.0) { -off } else { off };
+                    assert!(off <= rational(placed.margin()), "{matrix:?} {triangle:?}");
+                    assert!(x <= of_scale(bounds.max[axis]), "{matrix:?} {triangle:?}");
+                    assert!(of_scale(bounds.min[axis]) <= x, "{matrix:?} {triangle:?}");
+                    if let Some(more) = placed.more() {
+                        // The filter's E is 1.5 times this over u.
+                        let share = crate::rounded::rounded(&(off / rational(more)));
+                        largest_share = largest_share.max(share / U);
+                    }
+                }
+            }
+        }
+        assert!(
+            (0.05..2.0 / 3.0).contains(&largest_share),
+            "{largest_share}"
+        );
+    }
+}
