@@ -58,12 +58,18 @@ fn read_obj<F: Float>(path: &str) -> Drawn<F> {
                 vertices.push([x, y, z].map(number));
             }
             ["f", ref corners @ ..] => {
+                // From 1, or backwards from -1.
                 let number = |corner: &&str| {
-                    let vertex = corner.split('/').next()?.parse::<u32>().ok()?;
-                    vertex.checked_sub(1)
+                    let vertex = corner.split('/').next()?.parse::<i64>().ok()?;
+                    let before = if vertex < 0 {
+                        vertices.len() as i64
+                    } else {
+                        -1
+                    };
+                    u32::try_from(before + vertex).ok()
                 };
                 let corners: Option<Vec<u32>> = corners.iter().map(number).collect();
-                let corners = corners.expect("numbers of vertices, from 1");
+                let corners = corners.expect("numbers of vertices");
                 faces.extend(
                     corners
                         .windows(2)

@@ -134,7 +134,7 @@ fn instances_that_stay_floats_are_scenes() {
 
 #[test]
 fn a_tenth_is_the_float_and_not_its_rounded_product() {
-    // 0.1·3 is a little more than 0.30000000000000004 - 2^-54, and less than that float: so the exact edge lies between two floats.
+    // Exactly 0.1·3 lies between two floats, and the larger one is the rounded product.
     let mesh = vec![[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]]];
     let matrix = IDENTITY.map(|row| row.map(|x| 0.1 * x));
     let scene = Instances::new(vec![mesh], &[Instance { mesh: 0, matrix }]).unwrap();
