@@ -50,7 +50,7 @@ fn main() {
 fn read_obj<F: Float>(path: &str) -> Drawn<F> {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let text = std::fs::read_to_string(path).expect("a file");
-    for line in text.lines() {
+    for line in text.replace("\\\n", " ").lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
             ["v", x, y, z, ..] => {
