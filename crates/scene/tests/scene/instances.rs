@@ -5,6 +5,7 @@ use crate::instanced::{Placements, compare_instances};
 use crate::solids::{cube, octahedron};
 use crate::spheres::icosphere;
 use hairline_core::Case;
+use hairline_core::arith::scale_by_power_of_two;
 use hairline_core::case::{Draw, Instance as CaseInstance};
 use hairline_core::oracle::define_instance;
 use hairline_scene::{
@@ -201,6 +202,12 @@ fn wrong_instances_and_faces_are_named() {
     assert_eq!(with(f64::NAN), WrongInstance::NotFinite);
     assert_eq!(with(f64::INFINITY), WrongInstance::NotFinite);
     assert_eq!(with(f64::MAX), WrongInstance::TooLarge);
+    // Vertices at 2 are at 2^1000 then, and half as far.
+    let power = |exponent: i32| scale_by_power_of_two(1.0, exponent);
+    assert_eq!(with(power(999)), WrongInstance::TooLarge);
+    let mut matrix = IDENTITY;
+    matrix[1][1] = power(998);
+    assert!(Instances::new(meshes(), &[Instance { mesh: 0, matrix }]).is_ok());
     let mut faces = cube();
     faces[3][0][1] = f64::NAN;
     let scene = Instances::new(vec![faces], &[good]).unwrap();
