@@ -38,18 +38,6 @@ impl Aabb {
             self.max[axis] = self.max[axis].max(other.max[axis]);
         }
     }
-
-    /// Half of its surface; 0 of an empty box.
-    pub fn half_area(&self) -> f32 {
-        let size = [0, 1, 2].map(|axis| (self.max[axis] - self.min[axis]).max(0.0));
-        size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
-    }
-
-    /// Twice its centre.
-    #[inline(always)]
-    pub fn centre(&self) -> [f32; 3] {
-        [0, 1, 2].map(|axis| self.min[axis] + self.max[axis])
-    }
 }
 
 /// The largest `f32` that is at most x in its scale. `scaled` is x there, rounded only where it is below 2^-1022, and then

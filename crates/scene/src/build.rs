@@ -52,7 +52,7 @@ impl Bin {
 
     /// The cost of its faces: a box of no faces costs nothing.
     fn cost(&self) -> f32 {
-        self.bounds.half_area() * self.count as f32
+        half_area(&self.bounds) * self.count as f32
     }
 }
 
@@ -78,9 +78,21 @@ impl Slices {
 
     #[inline(always)]
     fn of(&self, bounds: &Aabb) -> usize {
-        let from_start = bounds.centre()[self.axis] - self.start;
+        let from_start = centre(bounds)[self.axis] - self.start;
         ((from_start * self.per_length) as usize).min(BINS - 1)
     }
+}
+
+/// Half of a box's surface; 0 of an empty box.
+fn half_area(bounds: &Aabb) -> f32 {
+    let size = [0, 1, 2].map(|axis| (bounds.max[axis] - bounds.min[axis]).max(0.0));
+    size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
+}
+
+/// Twice a box's centre.
+#[inline(always)]
+fn centre(bounds: &Aabb) -> [f32; 3] {
+    [0, 1, 2].map(|axis| bounds.min[axis] + bounds.max[axis])
 }
 
 impl Builder<'_> {
@@ -118,7 +130,7 @@ impl Builder<'_> {
         }
         let mut centres = Aabb::EMPTY;
         for face in &self.order[start..end] {
-            let centre = self.boxes[*face as usize].centre();
+            let centre = centre(&self.boxes[*face as usize]);
             centres.join(&Aabb {
                 min: centre,
                 max: centre,
@@ -129,7 +141,7 @@ impl Builder<'_> {
         let Some((cost, slices, first)) = cuts.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             return halves;
         };
-        let area = self.around(start, end).half_area();
+        let area = half_area(&self.around(start, end));
         let is_cheaper = cost + area < area * count as f32;
         if count <= MOST_UNCUT && !is_cheaper {
             return None;

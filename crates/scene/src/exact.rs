@@ -1,10 +1,14 @@
-//! A face seen from a ray in integers: the exact t of a crossing, and the part of a line that lies in a face.
+//! A face seen from a ray in integers: whether a line meets it, the exact t of a crossing, and the part of a line that lies
+//! in a face.
 
 use crate::fraction::{Fraction, Parameter};
 use crate::grid::Grid;
 use crate::mesh::Triangle;
 use crate::ray::Ray;
-use hairline_core::oracle::integer::{Integer, IntegerVector, align, cross, dot, minus};
+use hairline_core::oracle::integer::{
+    ExactInteger, Integer, IntegerVector, align, cross, dot, minus,
+};
+use hairline_core::{Facing, Feature};
 use num_bigint::BigInt;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -61,6 +65,21 @@ impl Exact {
         }
     }
 
+    /// The common points of the line and a triangle whose vertices are integers times 2 to a power.
+    pub fn meet(&self, (vertices, unit): ([IntegerVector<BigInt>; 3], i64)) -> Option<Meeting> {
+        let ([origin], of_origin) = align([self.ray.origin]);
+        let ([direction], of_direction) = align([self.ray.direction]);
+        let grid = unit.min(of_origin);
+        let origin = origin.map(|x| x << (of_origin - grid));
+        let on_grid = |vertex: IntegerVector<BigInt>| vertex.map(|x| x << (unit - grid));
+        let seen = Seen {
+            direction,
+            vertices: vertices.map(|vertex| minus(&on_grid(vertex), &origin)),
+            exponent: grid - of_direction,
+        };
+        seen.meet()
+    }
+
     fn on_grids(&self, [positions, direction]: [Grid; 2], triangle: &Triangle<f64>) -> Seen<i128> {
         let position = |point: [f64; 3]| point.map(|x| positions.integer(x));
         let origin = position(self.ray.origin);
@@ -80,6 +99,14 @@ impl Exact {
             exponent: unit - direction_unit,
         }
     }
+}
+
+/// The common points of a line and a triangle.
+pub enum Meeting {
+    /// The point at which the line crosses the triangle's plane.
+    Crossing(Facing, Feature, Parameter),
+    /// The first and the last t of a line in the triangle's plane, or of a triangle without area.
+    Contact([Parameter; 2]),
 }
 
 /// A direction, and vertices seen from the origin, in integers of two grids. t carries 2 to the power of `exponent`.
@@ -135,5 +162,33 @@ impl<I: Integer> Seen<I> {
             }
         }
         Some([first?, last?])
+    }
+}
+
+impl Seen<BigInt> {
+    /// With the vertices a, b and c seen from the origin the weights d·(c×b), d·(a×c) and d·(b×a) add up to -D. The line
+    /// passes all edges on the same side, or through them, if no two weights have opposite signs.
+    ///
+    /// All three are 0 if and only if the line is coplanar with each edge. Else D is not 0 once their signs agree: with D = 0 their sum
+    /// is 0. And a triangle without area has D = 0.
+    fn meet(&self) -> Option<Meeting> {
+        let [a, b, c] = &self.vertices;
+        let weight = |p, q| ExactInteger::sign(&dot(&self.direction, &cross(p, q)));
+        let weights = [weight(c, b), weight(a, c), weight(b, a)];
+        let [is_less, is_greater] =
+            [Ordering::Less, Ordering::Greater].map(|sign| weights.contains(&sign));
+        let (facing, weights) = match (is_less, is_greater) {
+            (true, true) => return None,
+            (false, false) => return Some(Meeting::Contact(self.contact()?.map(Parameter::Large))),
+            // The weights' sum is -D.
+            (false, true) => (Facing::Front, weights),
+            (true, false) => (Facing::Back, weights.map(Ordering::reverse)),
+        };
+        let feature = Feature::from_weight_signs(weights);
+        Some(Meeting::Crossing(
+            facing,
+            feature,
+            Parameter::Large(self.crossing()),
+        ))
     }
 }

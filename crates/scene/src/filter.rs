@@ -17,6 +17,12 @@
 //! `hairline_core`. With computed T̂, D̂, q = fl(T̂/D̂) and their errors, t is off from T̂/D̂ by at most
 //! (T_error + |T̂/D̂|·D_error) / (|D̂| - D_error). Six roundings and those of q, below 16u relative, are added, for q and the
 //! ends of the interval 4u·|q|, and 2^-1000 for a quotient that underflows.
+//!
+//! **Rounded vertices.** A mesh that a matrix puts into the world has vertices that are off by up to δ on each axis, so e, f, s
+//! and a-o are off by 2δ more. All sizes above are then taken larger by E ≥ 1.5δ/u. A weight's six products of components below x
+//! and y move by 12δ(x + y + 2δ) at most. Their bound grows by 64u·E(x + y + E), of which the roundings, as 56u, leave
+//! 8u·E(x + y + E), and that is more. In D and T no rounding uses what E adds to the permanents, and 2δ ≤ 8u·E. A product
+//! that underflows is off by some 2^-1074, which is nothing next to u·E² with E ≥ 2^-150.
 
 use crate::bounds::Bounds;
 use crate::mesh::Triangle;
@@ -48,9 +54,10 @@ pub fn are_moderate(numbers: &[f64]) -> bool {
     numbers.iter().all(is_moderate)
 }
 
-/// Sorts a triangle by the signs of its weights. `direction_size` is the largest size of a component of the direction.
+/// Sorts a triangle by the signs of its weights. `direction_size` is the largest size of a component of the direction, and
+/// `more` the E of rounded vertices.
 #[inline(always)]
-pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> Sorted {
+pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>, more: f64) -> Sorted {
     let e = minus(b, a);
     let f = minus(c, a);
     let s = minus(&ray.origin, a);
@@ -58,7 +65,7 @@ pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> S
     let all = dot(&e, &p);
     let weight_b = dot(&s, &p);
     let scale = 64.0 * U * direction_size;
-    let (e_size, f_size, s_size) = (size(&e), size(&f), size(&s));
+    let (e_size, f_size, s_size) = (size(&e) + more, size(&f) + more, size(&s) + more);
     let error_b = scale * s_size * f_size;
     let error_all = scale * e_size * f_size;
     // Most faces are missed, and many are done here: the weight of b is surely less than nothing, or more than all.
@@ -90,14 +97,15 @@ pub fn sort(ray: &Ray<f64>, direction_size: f64, [a, b, c]: &Triangle<f64>) -> S
 }
 
 /// The t at which a line meets the plane of a triangle, and the side from which; none if the line may be parallel, or if t
-/// overflows.
+/// overflows. `more` is the E of rounded vertices.
 #[inline(always)]
-pub fn plane_t(ray: &Ray<f64>, [a, b, c]: &Triangle<f64>) -> Option<(Bounds, Facing)> {
+pub fn plane_t(ray: &Ray<f64>, [a, b, c]: &Triangle<f64>, more: f64) -> Option<(Bounds, Facing)> {
+    let larger = |x: f64| x.abs() + more;
     let e = minus(b, a);
     let f = minus(c, a);
     let to_a = minus(a, &ray.origin);
     let normal = cross(&e, &f);
-    let permanent = cross_permanent(&e, &f);
+    let permanent = cross_permanent(&e.map(larger), &f.map(larger));
     let capital_d = dot(&ray.direction, &normal);
     let d_error = 8.0 * U * dot(&ray.direction.map(f64::abs), &permanent);
     let d_size = capital_d.abs();
@@ -105,7 +113,7 @@ pub fn plane_t(ray: &Ray<f64>, [a, b, c]: &Triangle<f64>) -> Option<(Bounds, Fac
         return None;
     }
     let capital_t = dot(&to_a, &normal);
-    let t_error = 16.0 * U * dot(&to_a.map(f64::abs), &permanent);
+    let t_error = 16.0 * U * dot(&to_a.map(larger), &permanent);
     let t = capital_t / capital_d;
     if t.is_infinite() {
         return None;
@@ -143,10 +151,9 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
     ]
 }
 
-/// The cross product with sums of absolute values.
+/// The cross product with sums, of vectors without a negative component.
 #[inline(always)]
 fn cross_permanent(a: &Vector, b: &Vector) -> Vector {
-    let [a, b] = [a.map(f64::abs), b.map(f64::abs)];
     [
         a[1] * b[2] + a[2] * b[1],
         a[2] * b[0] + a[0] * b[2],
@@ -164,31 +171,36 @@ pub fn size(a: &Vector) -> f64 {
 mod tests {
     use super::*;
     use hairline_core::case::Draw;
+    use hairline_core::oracle::exact_values;
     use hairline_core::{Feature, Truth, truth};
+    use num_rational::BigRational;
+
+    /// A ray near the plane of a triangle but for rounding, its origin near a vertex; in every other case a little farther.
+    fn drawn(draw: &mut Draw) -> (Ray<f64>, Triangle<f64>) {
+        let [a, b, c]: [Vector; 3] = [(); 3].map(|()| draw.point());
+        let near = 2f64.powi(-(draw.below(30) as i32));
+        let mut along = |size: f64| {
+            let [x, y] = [(); 2].map(|()| size * draw.symmetric::<f64>());
+            [0, 1, 2].map(|i| x * (b[i] - a[i]) + y * (c[i] - a[i]))
+        };
+        let (step, mut direction) = (along(near), along(1.0));
+        let lift = 2f64.powi(-(draw.below(50) as i32)) * draw.below(2) as f64;
+        let aside: Vector = draw.point();
+        direction = [0, 1, 2].map(|i| direction[i] + lift * aside[i]);
+        let ray = Ray::new([0, 1, 2].map(|i| a[i] + step[i]), direction);
+        (ray, [a, b, c])
+    }
 
     #[test]
     fn what_is_sure_is_true_of_rays_that_all_but_lie_in_the_plane() {
         let (mut misses, mut crossings) = (0, 0);
         for index in 0..200_000 {
-            let mut draw = Draw::new("flat", 1, index);
-            let [a, b, c]: [Vector; 3] = [(); 3].map(|()| draw.point());
-            // Near the plane but for rounding: the origin near a vertex, and the direction.
-            let near = 2f64.powi(-(draw.below(30) as i32));
-            let mut along = |size: f64| {
-                let [x, y] = [(); 2].map(|()| size * draw.symmetric::<f64>());
-                [0, 1, 2].map(|i| x * (b[i] - a[i]) + y * (c[i] - a[i]))
-            };
-            let (step, mut direction) = (along(near), along(1.0));
-            // In every other case a little more than that.
-            let lift = 2f64.powi(-(draw.below(50) as i32)) * draw.below(2) as f64;
-            let aside: Vector = draw.point();
-            direction = [0, 1, 2].map(|i| direction[i] + lift * aside[i]);
-            let ray = Ray::new([0, 1, 2].map(|i| a[i] + step[i]), direction);
-            let triangle = [a, b, c];
+            let (ray, triangle) = drawn(&mut Draw::new("flat", 1, index));
+            let direction = ray.direction;
             let Truth::Transversal(crossing) = truth(&ray.against(&triangle)) else {
                 continue;
             };
-            match sort(&ray, size(&direction), &triangle) {
+            match sort(&ray, size(&direction), &triangle, 0.0) {
                 Sorted::Misses => {
                     assert_eq!(crossing.feature, Feature::Outside, "{ray:?} {triangle:?}");
                     misses += 1;
@@ -201,5 +213,41 @@ mod tests {
             }
         }
         assert!(1000 < misses && 100 < crossings, "{misses} {crossings}");
+    }
+
+    #[test]
+    fn bounds_of_t_hold_t_in_all_sizes() {
+        let (mut bounded, mut narrow) = (0, 0);
+        for index in 0..20_000 {
+            let mut draw = Draw::new("bounds", 1, index);
+            let (ray, triangle) = drawn(&mut draw);
+            // Every other one is moved far away, so that roundings are large.
+            let [size, speed] = [(); 2].map(|()| 2f64.powi(draw.integer(-40, 40) as i32));
+            let away: Vector = draw.point();
+            let far = [0.0, 2f64.powi(draw.below(20) as i32)][draw.below(2)];
+            let stretch = [(); 3].map(|()| 2f64.powi(-(draw.below(24) as i32)));
+            let stretched = |v: Vector| [0, 1, 2].map(|i| stretch[i] * v[i]);
+            let moved =
+                |point: Vector| stretched([0, 1, 2].map(|i| size * (point[i] + far * away[i])));
+            let direction = stretched(ray.direction.map(|x| speed * x));
+            let ray = Ray::new(moved(ray.origin), direction);
+            let triangle = triangle.map(moved);
+            let case = ray.against(&triangle).on(f64::NEG_INFINITY, f64::INFINITY);
+            let truth = truth(&case);
+            let Some((bounds, facing)) = plane_t(&ray, &triangle, 0.0) else {
+                continue;
+            };
+            let Truth::Transversal(crossing) = truth else {
+                panic!("{ray:?} {triangle:?}");
+            };
+            assert_eq!(facing, crossing.facing, "{ray:?} {triangle:?}");
+            let t = exact_values(&case, &truth).t.expect("a crossing");
+            let float = |x: f64| BigRational::from_float(x).expect("a finite bound");
+            assert!(float(bounds.lower) <= t, "{ray:?} {triangle:?}");
+            assert!(t <= float(bounds.upper), "{ray:?} {triangle:?}");
+            bounded += 1;
+            narrow += u32::from(bounds.upper - bounds.lower < 1e-3 * bounds.upper.abs());
+        }
+        assert!(10_000 < bounded && 2_000 < narrow, "{bounded} {narrow}");
     }
 }

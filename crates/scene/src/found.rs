@@ -1,7 +1,6 @@
 //! A face that a ray meets, the order of two of them along the ray, and what needs no arithmetic: points with one name.
 
 use crate::bounds::Bounds;
-use crate::exact::Exact;
 use crate::fraction::Parameter;
 use crate::mesh::Triangle;
 use hairline_core::{Facing, Feature};
@@ -73,7 +72,7 @@ impl Found {
     }
 
     /// The vertices that name the point among all points of a line. None of a segment.
-    fn name(&self, triangle: &Triangle<f64>) -> Option<Name> {
+    pub fn name(&self, triangle: &Triangle<f64>) -> Option<Name> {
         let [a, b, c] = triangle;
         let feature = match self.common {
             Common::Crossing(_, feature) | Common::Point(feature) => feature,
@@ -94,7 +93,7 @@ impl Found {
 /// One vertex, the two of an edge, or the three of a face, by coordinates and in any order. A line that meets a vertex,
 /// or an edge or a face in one point only, meets it at one t, whichever face the vertices are taken from.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Name([[u64; 3]; 3]);
+pub struct Name([[u64; 3]; 3]);
 
 impl Name {
     fn of<const N: usize>(vertices: [&[f64; 3]; N]) -> Name {
@@ -108,13 +107,18 @@ impl Name {
 }
 
 /// The order of faces along one ray.
-pub struct Order<'a, T: Fn(u32) -> Triangle<f64>> {
-    pub exact: &'a Exact,
-    /// The triangle at a place.
-    pub triangle: T,
+pub struct Order<C, N> {
+    /// The exact t at which the line crosses the plane of the face at a place.
+    pub crossing: C,
+    /// The name of a point, if it has one.
+    pub name: N,
 }
 
-impl<T: Fn(u32) -> Triangle<f64>> Order<'_, T> {
+impl<C, N> Order<C, N>
+where
+    C: Fn(u32) -> Parameter,
+    N: Fn(&Found) -> Option<Name>,
+{
     /// The order of an end of one and an end of another, exactly.
     pub fn compare(&self, a: &Found, a_end: End, b: &Found, b_end: End) -> Ordering {
         let (x, y) = (a.bounds(a_end), b.bounds(b_end));
@@ -127,8 +131,8 @@ impl<T: Fn(u32) -> Triangle<f64>> Order<'_, T> {
         if x.is_exact() && y.is_exact() {
             return Ordering::Equal;
         }
-        let name = self.name(a);
-        if name.is_some() && name == self.name(b) {
+        let name = (self.name)(a);
+        if name.is_some() && name == (self.name)(b) {
             return Ordering::Equal;
         }
         let (x, y) = (self.parameter(a, a_end), self.parameter(b, b_end));
@@ -162,14 +166,10 @@ impl<T: Fn(u32) -> Triangle<f64>> Order<'_, T> {
         self.parameter(found, end).compare_float(t)
     }
 
-    fn name(&self, found: &Found) -> Option<Name> {
-        found.name(&(self.triangle)(found.place))
-    }
-
     /// An end, exactly.
     pub fn parameter<'f>(&self, found: &'f Found, end: End) -> &'f Parameter {
         let ends = found.exact.get_or_init(|| {
-            let t = self.exact.crossing(&(self.triangle)(found.place));
+            let t = (self.crossing)(found.place);
             Box::new([t.clone(), t])
         });
         &ends[end as usize]

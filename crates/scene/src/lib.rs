@@ -13,7 +13,8 @@
 //! ```
 //!
 //! [`Scene::hits`] has all hits in exact order, [`Scene::values`] their numbers. For closed surfaces [`Scene::passages`] says
-//! where a ray crosses the surface, touches it or runs in it, and [`Scene::locate`] whether a point is inside.
+//! where a ray crosses the surface, touches it or runs in it, and [`Scene::locate`] whether a point is inside. [`Instances`] are
+//! meshes that matrices put into the world.
 //!
 //! ```
 //! use hairline_scene::{Location, Ray, Scene, Winding};
@@ -30,7 +31,7 @@
 //! assert_eq!(passages[0].crosses(), Ok(false));
 //! ```
 //!
-//! [`define`] is the definition, in rationals and over all faces. A [`Scene`] gives the same answers fast: a tree whose
+//! [`define`] and [`define_instances`] are the definition, in rationals and over all faces. A [`Scene`] gives the same answers fast: a tree whose
 //! box test loses nothing, a filter in floats with bounds, and integers where the bounds do not tell.
 
 #![forbid(unsafe_code)]
@@ -39,6 +40,7 @@
 mod bounds;
 mod distance;
 mod grid;
+mod instance;
 mod mesh;
 mod ray;
 mod rounded;
@@ -54,12 +56,15 @@ mod filter;
 mod fraction;
 
 mod found;
+mod hit;
 mod query;
 mod slab;
 mod tree;
 
 mod build;
+mod placed;
 
+mod instances;
 mod scene;
 
 mod passage;
@@ -69,7 +74,10 @@ mod judge;
 
 pub use bounds::Bounds;
 pub use closed::Closed;
-pub use define::{DefinedHit, define, nearest_of};
+pub use define::{DefinedHit, define, define_instances, nearest_of};
+pub use hairline_core::case::Matrix;
+pub use instance::{Instance, InstanceError, PlacedFace, WrongInstance};
+pub use instances::Instances;
 pub use judge::{Answer, Judged, Judgement, VISIBLE};
 pub use mesh::{MeshError, Triangle, triangles};
 pub use passage::{Location, Passage};

@@ -1,7 +1,7 @@
 //! One ray against one face: first in floats, then exactly.
 
 use crate::bounds::Bounds;
-use crate::exact::Exact;
+use crate::exact::{Exact, Meeting};
 use crate::filter::{Sorted, are_moderate, plane_t, size, sort};
 use crate::found::{Common, Found};
 use crate::fraction::Parameter;
@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 
 /// A ray that looks for faces.
 pub struct Query {
-    ray: Ray<f64>,
+    pub ray: Ray<f64>,
     /// True if the filter's bounds hold for all faces.
     is_moderate: bool,
     direction_size: f64,
@@ -43,31 +43,52 @@ impl Query {
     /// The common points of the ray and the face at a place. None also if they lie surely beyond a t.
     #[inline(always)]
     pub fn meet(&self, place: u32, triangle: &Triangle<f64>, beyond: f64) -> Option<Found> {
+        self.meet_or(place, triangle, 0.0, beyond, || {
+            self.meet_exactly(place, triangle, beyond)
+        })
+    }
+
+    /// The same for a triangle that may be rounded, with the filter's E of it, and for one about which the filter is not
+    /// sure.
+    #[inline(always)]
+    pub fn meet_or(
+        &self,
+        place: u32,
+        triangle: &Triangle<f64>,
+        more: f64,
+        beyond: f64,
+        unsure: impl FnOnce() -> Option<Found>,
+    ) -> Option<Found> {
         let sorted = if self.is_moderate {
-            sort(&self.ray, self.direction_size, triangle)
+            sort(&self.ray, self.direction_size, triangle, more)
         } else {
             Sorted::Unsure
         };
         match sorted {
             Sorted::Misses => None,
-            Sorted::Crosses => self.cross(place, triangle, beyond),
-            Sorted::Unsure => self.meet_exactly(place, triangle, beyond),
+            Sorted::Crosses => match self.cross(place, triangle, more, beyond) {
+                Some(sure) => sure,
+                None => unsure(),
+            },
+            Sorted::Unsure => unsure(),
         }
     }
 
-    /// The same for a line that surely crosses the inside of the face.
+    /// The same for a line that surely crosses the inside of the face; none if its t is not sure.
     #[inline(never)]
-    fn cross(&self, place: u32, triangle: &Triangle<f64>, beyond: f64) -> Option<Found> {
-        let Some((t, facing)) = plane_t(&self.ray, triangle) else {
-            return self.meet_exactly(place, triangle, beyond);
-        };
+    fn cross(
+        &self,
+        place: u32,
+        triangle: &Triangle<f64>,
+        more: f64,
+        beyond: f64,
+    ) -> Option<Option<Found>> {
+        let (t, facing) = plane_t(&self.ray, triangle, more)?;
         if self.is_outside(t) || beyond < t.lower {
-            return None;
+            return Some(None);
         }
-        if !self.is_inside(t) {
-            return self.meet_exactly(place, triangle, beyond);
-        }
-        Some(Found::crossing(place, facing, Feature::Interior, t))
+        let is_sure = self.is_inside(t);
+        is_sure.then(|| Some(Found::crossing(place, facing, Feature::Interior, t)))
     }
 
     /// True if a t is surely outside the interval.
@@ -86,7 +107,7 @@ impl Query {
     #[inline(never)]
     fn meet_exactly(&self, place: u32, triangle: &Triangle<f64>, beyond: f64) -> Option<Found> {
         let plane = if self.is_moderate {
-            plane_t(&self.ray, triangle)
+            plane_t(&self.ray, triangle, 0.0)
         } else {
             None
         };
@@ -126,13 +147,39 @@ impl Query {
             ContactKind::Point(feature) => Common::Point(feature),
             ContactKind::Segment => Common::Segment,
         };
-        let [mut from, mut to] = self.exact.contact(triangle)?;
+        let ends = self.exact.contact(triangle)?;
+        Some(Found::between(place, common, self.cut(ends)))
+    }
+
+    /// The ends of a contact, which the interval cuts.
+    pub fn cut(&self, [mut from, mut to]: [Parameter; 2]) -> [Parameter; 2] {
         if from.compare_float(self.ray.t_min) == Ordering::Less {
             from = Parameter::End(self.ray.t_min);
         }
         if to.compare_float(self.ray.t_max) == Ordering::Greater {
             to = Parameter::End(self.ray.t_max);
         }
-        Some(Found::between(place, common, [from, to]))
+        [from, to]
+    }
+
+    /// The common points of the line that lie on the interval.
+    pub fn on_interval(&self, meeting: Meeting) -> Option<(Common, [Parameter; 2])> {
+        let (crossing, ends) = match meeting {
+            Meeting::Crossing(facing, feature, t) => (Some((facing, feature)), [t.clone(), t]),
+            Meeting::Contact(ends) => (None, ends),
+        };
+        let is_beside = ends[1].compare_float(self.ray.t_min) == Ordering::Less
+            || ends[0].compare_float(self.ray.t_max) == Ordering::Greater;
+        if is_beside {
+            return None;
+        }
+        let ends = self.cut(ends);
+        let common = match crossing {
+            Some((facing, feature)) => Common::Crossing(facing, feature),
+            None if ends[0].compare(&ends[1]) == Ordering::Less => Common::Segment,
+            // A point of the triangle; nothing depends on where it is.
+            None => Common::Point(Feature::Interior),
+        };
+        Some((common, ends))
     }
 }

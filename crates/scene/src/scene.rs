@@ -1,20 +1,22 @@
-//! A mesh with its tree, and the faces that a ray meets first.
+//! A mesh with its tree, and the faces that a ray meets.
 
 use crate::aabb::{Aabb, exponent_of};
-use crate::bounds::Bounds;
 use crate::build::build;
 use crate::closed::{Closed, closed};
 use crate::filter::are_moderate;
-use crate::found::{End, Found, Order};
+use crate::found::{Found, Name, Order};
+use crate::fraction::Parameter;
 use crate::grid::Grid;
+use crate::hit::{Nearer, in_order};
 use crate::mesh::{MeshError, Triangle, is_finite, triangles, widened};
 use crate::query::{Numbers, Query};
 use crate::ray::{InvalidRay, Ray};
 use crate::slab::TreeRay;
 use crate::tree::{Node, walk};
 use hairline_core::Float;
-use std::cmp::Ordering;
 use std::sync::OnceLock;
+
+pub use crate::hit::{Hit, Nearest};
 
 /// A mesh that rays are held against: 10^7 faces of `f32` need about 0.7 GB, and 1.5 GB while the tree is built.
 ///
@@ -37,28 +39,6 @@ pub struct Scene<F: Float> {
 }
 
 const NO_PLACE: u32 = u32::MAX;
-
-/// The least t at which a ray meets a mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Nearest {
-    /// Bounds of t.
-    pub t: Bounds,
-    /// All faces that the ray meets there, by number. Any one of them is right.
-    pub faces: Vec<u32>,
-}
-
-/// Points of a ray that it shares with the same faces: one point, or a segment that lies in them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Hit {
-    /// Bounds of the first t.
-    pub from: Bounds,
-    /// Bounds of the last t; that of a point is the first one.
-    pub to: Bounds,
-    /// True if the ray runs inside the faces from the first t to a later one.
-    pub is_segment: bool,
-    /// The faces, by number.
-    pub faces: Vec<u32>,
-}
 
 impl<F: Float> Scene<F> {
     /// From vertices and the three of each face. An error if a face names a vertex that does not exist, or if there are
@@ -125,46 +105,11 @@ impl<F: Float> Scene<F> {
     pub fn nearest(&self, ray: &Ray<F>) -> Result<Option<Nearest>, InvalidRay> {
         let ray = ray.checked()?;
         let query = self.query(ray);
-        // The face with the least upper bound, and those that may come before it. Seldom are there any.
-        let mut best: Option<Found> = None;
-        let mut rivals: Vec<Found> = Vec::new();
-        let mut least = f64::INFINITY;
+        let mut nearer = Nearer::NONE;
         self.visit_places(&ray, |place, triangle| {
-            let found = query.meet(place, triangle, least)?;
-            if best.is_some() && least <= found.from.upper {
-                rivals.push(found);
-                return None;
-            }
-            least = found.from.upper;
-            rivals.extend(best.replace(found));
-            rivals.retain(|rival| rival.from.lower <= least);
-            Some(least)
+            nearer.add(query.meet(place, triangle, nearer.least)?)
         });
-        Ok(best.map(|best| self.first_of(&query, &best, &rivals)))
-    }
-
-    /// The least of some faces, exactly.
-    fn first_of(&self, query: &Query, best: &Found, rivals: &[Found]) -> Nearest {
-        let order = self.order(query);
-        let mut first = best;
-        let mut faces = vec![self.face_at(best.place)];
-        for rival in rivals {
-            let face = self.face_at(rival.place);
-            match order.compare(rival, End::From, first, End::From) {
-                Ordering::Less => {
-                    first = rival;
-                    faces.clear();
-                    faces.push(face);
-                }
-                Ordering::Equal => faces.push(face),
-                Ordering::Greater => {}
-            }
-        }
-        faces.sort();
-        Nearest {
-            t: first.from,
-            faces,
-        }
+        Ok(nearer.first(&self.order(&query), |place| self.face_at(place)))
     }
 
     /// All hits of a ray on its interval, ordered by their first t and then by their last one; exactly, whatever the bounds
@@ -172,11 +117,10 @@ impl<F: Float> Scene<F> {
     pub fn hits(&self, ray: &Ray<F>) -> Result<Vec<Hit>, InvalidRay> {
         let ray = ray.checked()?;
         let query = self.query(ray);
-        let order = self.order(&query);
-        let mut found = self.all(&ray, &query);
-        found.sort_by(|a, b| order.by_ends(a, b));
-        let equal = found.chunk_by(|a, b| order.by_ends(a, b) == Ordering::Equal);
-        Ok(equal.map(|same| self.hit(same)).collect())
+        let found = self.all(&ray, &query);
+        Ok(in_order(found, &self.order(&query), |place| {
+            self.face_at(place)
+        }))
     }
 
     pub(crate) fn query(&self, ray: Ray<f64>) -> Query {
@@ -191,18 +135,6 @@ impl<F: Float> Scene<F> {
             None
         });
         found
-    }
-
-    /// The hit of faces with one range of t.
-    fn hit(&self, same: &[Found]) -> Hit {
-        let mut faces: Vec<u32> = same.iter().map(|found| self.face_at(found.place)).collect();
-        faces.sort();
-        Hit {
-            from: same[0].from,
-            to: same[0].to,
-            is_segment: same[0].is_segment(),
-            faces,
-        }
     }
 
     /// Calls `visit` for each face whose box the ray meets, roughly from near to far; no face that the ray meets is left
@@ -251,10 +183,10 @@ impl<F: Float> Scene<F> {
     pub(crate) fn order<'a>(
         &'a self,
         query: &'a Query,
-    ) -> Order<'a, impl Fn(u32) -> Triangle<f64> + 'a> {
+    ) -> Order<impl Fn(u32) -> Parameter + 'a, impl Fn(&Found) -> Option<Name> + 'a> {
         Order {
-            exact: &query.exact,
-            triangle: |place| self.triangle_at(place),
+            crossing: |place| query.exact.crossing(&self.triangle_at(place)),
+            name: |found: &Found| found.name(&self.triangle_at(found.place)),
         }
     }
 }

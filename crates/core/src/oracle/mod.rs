@@ -28,7 +28,7 @@ mod sum;
 mod width;
 
 pub use batch::{Batch, UnequalColumns};
-pub use rational::{Definition, define, define_instance};
+pub use rational::{Definition, define, define_instance, define_points};
 
 use crate::arith::Float;
 use crate::case::{Case, Instance};

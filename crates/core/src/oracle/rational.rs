@@ -55,6 +55,12 @@ pub fn define_instance<F: Float>(case: &Case<F>, instance: &Instance<F>) -> Defi
     })
 }
 
+/// The truth of a ray's origin and direction and of three vertices, in this order, by definition, where they are rational. The
+/// interval has two floats.
+pub fn define_points(points: [RationalPoint; 5], interval: [f64; 2]) -> Definition {
+    between(points, interval).unwrap_or_else(|| flat(Truth::Invalid, None))
+}
+
 fn define_with<F: Float>(
     case: &Case<F>,
     seen: impl FnOnce([RationalPoint; 2]) -> Option<[RationalPoint; 2]>,
@@ -73,14 +79,20 @@ fn define_valid(
         Some([x?, y?, z?])
     };
     let [o, d, a, b, c] = case.vectors().map(point);
-    let ([o, d], a, b, c) = (seen([o?, d?])?, a?, b?, c?);
-    let end = |t: f64| match rational(t) {
+    let [o, d] = seen([o?, d?])?;
+    between([o, d, a?, b?, c?], [case.ray.t_min, case.ray.t_max])
+}
+
+/// None of an invalid case.
+fn between([o, d, a, b, c]: [RationalPoint; 5], interval: [f64; 2]) -> Option<Definition> {
+    let end = |t: f64| match Rational::from_float(t) {
         Some(t) => Some(RationalEnd::At(t)),
         None if t == f64::INFINITY => Some(RationalEnd::PlusInfinity),
         None if t == f64::NEG_INFINITY => Some(RationalEnd::MinusInfinity),
         None => None,
     };
-    let (t_min, t_max) = (end(case.ray.t_min)?, end(case.ray.t_max)?);
+    let [t_min, t_max] = interval.map(end);
+    let (t_min, t_max) = (t_min?, t_max?);
     if t_min > t_max || d.iter().all(Zero::is_zero) {
         return None;
     }

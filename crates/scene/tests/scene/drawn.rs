@@ -298,3 +298,20 @@ pub fn compare_many<F: Float>(seed: u64, rays: u64, reference: Reference) -> Met
     }
     met
 }
+
+/// Compares a number of rays with a mesh of any size, by a walk over its faces.
+pub fn compare_mesh<F: Float>(mesh: &Drawn<F>, seed: u64, rays: u64) -> Met {
+    let mut met = Met::default();
+    let scene = mesh.scene();
+    for index in 0..rays {
+        let mut draw = Draw::new("mesh", seed, index);
+        let style = Style {
+            kind: draw.below(8),
+            exponent: 0,
+            reach: 2,
+        };
+        let ray = ray(&mut draw, style, mesh);
+        compare(mesh, &scene, &ray, Reference::Walk, &mut met);
+    }
+    met
+}

@@ -105,3 +105,21 @@ fn contacts_of_faces_without_area_fill_the_integers() {
         assert_eq!(values.map(|values| values.t), Some([1.0; 2]));
     }
 }
+
+#[test]
+fn a_hit_at_the_end_of_the_interval_is_in_a_box_that_rounding_puts_behind_it() {
+    for speed in 1..200 {
+        for t in 1..40 {
+            // (b-o)·(1/d) is a little more than t for some of them.
+            let [d, t] = [speed, t].map(f64::from);
+            let face = [[0.0; 3], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            let ray = Ray::new([-d * t, 0.25, 0.25], [d, 0.0, 0.0]).on(0.0, t);
+            let behind = face.map(|[x, y, z]| [x + 1.0, y, z]);
+            let scene = Scene::new(&[face, behind].concat(), &[[0, 1, 2], [3, 4, 5]]).unwrap();
+            assert!(finds_face_0(&scene, &ray), "{ray:?}");
+            // And where t is negative.
+            let back = Ray::new([d * t, 0.25, 0.25], [d, 0.0, 0.0]).on(f64::NEG_INFINITY, -t);
+            assert!(finds_face_0(&scene, &back), "{back:?}");
+        }
+    }
+}

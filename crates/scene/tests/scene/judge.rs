@@ -105,3 +105,28 @@ fn a_face_that_is_a_point_is_right_at_its_t() {
     assert_eq!(judged(&with_face, 3.0 + 1e-6), Judgement::Tie);
     assert_eq!(judged(&with_face, 3.1), Judgement::WrongT);
 }
+
+#[test]
+fn wrong_is_what_somebody_sees() {
+    use Judgement::{Farther, Ghost, Lost, Neighbour, Right, Tie, WrongT};
+    for (judgements, is_wrong) in [
+        (&[Right, Tie, Neighbour][..], false),
+        (&[WrongT, Lost, Farther, Ghost][..], true),
+    ] {
+        assert!(judgements.iter().all(|it| it.is_wrong() == is_wrong));
+    }
+}
+
+#[test]
+fn t_is_told_from_the_first_point_of_a_segment() {
+    // In the plane of the upper square, from so far away that the bounds of t are wide.
+    let far = 2f64.powi(45);
+    let ray = Ray::new([-far, 0.25, 0.0], [1.0, 0.0, 0.0]);
+    let nearest = squares().nearest(&ray).unwrap().unwrap();
+    assert_eq!(nearest.faces, [1]);
+    assert!(0.01 < nearest.t.upper - nearest.t.lower);
+    assert_eq!(
+        judged(&ray, Some(1), Some(far)),
+        (Judgement::Right, Some(0.0))
+    );
+}

@@ -1,12 +1,19 @@
 //! Tests of whole scenes.
 
 mod drawn;
+mod instanced;
 mod solids;
+mod spheres;
+mod track;
 
+mod columns;
 mod definition;
 mod extremes;
+mod inside_reports;
+mod instances;
 mod judge;
 mod laws;
 mod passages;
 mod reports;
+mod tracking;
 mod values;

@@ -2,7 +2,7 @@
 
 use hairline_core::Facing;
 use hairline_core::case::Draw;
-use hairline_scene::{Ray, Scene, rounded};
+use hairline_scene::{InvalidRay, MeshError, Ray, Scene, rounded, triangles};
 
 #[test]
 fn a_crossing_has_t_point_side_and_weights() {
@@ -49,4 +49,44 @@ fn the_point_of_t_is_the_point_of_the_weights() {
         hits += 1;
     }
     assert!(100 < hits);
+}
+
+#[test]
+fn what_is_no_mesh_and_no_ray_is_named() {
+    let missing = MeshError::NoSuchVertex { face: 1, vertex: 2 };
+    let vertices = [[0.0f32; 3]; 2];
+    let faces = [[0, 1, 1], [1, 2, 0]];
+    assert_eq!(triangles(&vertices, &faces), Err(missing));
+    assert_eq!(Scene::new(&vertices, &faces).err(), Some(missing));
+    let said = "face 1 names vertex 2, which does not exist";
+    assert_eq!(missing.to_string(), said);
+    let too_many = MeshError::TooManyFaces.to_string();
+    assert_eq!(too_many, "a scene has at most 2^32 - 2 faces");
+    let scene = Scene::<f32>::new(&vertices, &[[0, 1, 1]]).unwrap();
+    let ray = Ray::new([0.0f32; 3], [1.0; 3]);
+    for (wrong, invalid, word) in [
+        (
+            Ray::new([f32::NAN, 0.0, 0.0], [1.0; 3]),
+            InvalidRay::NotFinite,
+            "finite",
+        ),
+        (
+            Ray::new([0.0; 3], [0.0, f32::INFINITY, 0.0]),
+            InvalidRay::NotFinite,
+            "finite",
+        ),
+        (
+            Ray::new([0.0; 3], [0.0, -0.0, 0.0]),
+            InvalidRay::NoDirection,
+            "zero",
+        ),
+        (ray.on(1.0, 0.5), InvalidRay::Interval, "interval"),
+        (ray.on(f32::NAN, 0.5), InvalidRay::Interval, "interval"),
+        (ray.on(0.0, f32::NAN), InvalidRay::Interval, "interval"),
+    ] {
+        assert_eq!(scene.nearest(&wrong), Err(invalid), "{wrong:?}");
+        assert_eq!(scene.hits(&wrong), Err(invalid));
+        assert_eq!(scene.passages(&wrong), Err(invalid));
+        assert!(invalid.to_string().contains(word), "{invalid}");
+    }
 }
