@@ -145,6 +145,8 @@ pub mod kernel;
 #[doc(hidden)]
 pub mod oracle;
 
+pub mod exact;
+
 pub use case::{Case, Parameters, Ray, Triangle};
 pub use error::{Error, ErrorKind};
 pub use oracle::{Batch, Layers, UnequalColumns, truth, truths, truths_of_rows};

@@ -20,6 +20,7 @@ mod filter;
 mod grid;
 pub mod integer;
 mod monomials;
+mod once;
 mod rational;
 mod resolve;
 mod scaled;
@@ -28,6 +29,7 @@ mod sum;
 mod width;
 
 pub use batch::{Batch, UnequalColumns};
+pub use once::is_met_once;
 pub use rational::{Definition, define, define_instance, define_points};
 
 use crate::arith::Float;
