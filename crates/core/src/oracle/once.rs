@@ -8,7 +8,7 @@
 //! `include/hairline_exact.h` has the same rule.
 
 use super::integer::{ExactInteger, Integer, align, minus};
-use crate::arith::{Real, Vector};
+use crate::arith::Vector;
 use crate::case::Case;
 use crate::truth::{Crossing, Facing, Feature};
 use num_bigint::BigInt;
