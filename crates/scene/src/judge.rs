@@ -1,17 +1,18 @@
-//! The nearest hit that another program answered, beside the truth.
+//! The answers of another program, beside the truth: the nearest hit here; all hits, counts and places of points below.
 
-use crate::bounds::Bounds;
-use crate::distance::{distance_to, longest_edge};
+mod hair;
+mod hits;
+mod places;
+
+pub use hits::NamedHit;
+pub use places::NamedPlace;
+
 use crate::ray::{InvalidRay, Ray};
 use crate::scene::{Nearest, Scene};
-use glam::DVec3;
 use hairline_core::Float;
 
 /// A t that is off by more than this share of the face's longest edge is wrong: the point lies visibly elsewhere.
 pub const VISIBLE: f64 = 1e-3;
-
-/// Bounds of t that are nearer to each other, in longest edges, tell how far an answer is off.
-const TELLING: f64 = 1e-9;
 
 /// The nearest hit as a program answered it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,33 +23,49 @@ pub struct Answer {
     pub t: Option<f64>,
 }
 
-/// The judgement of an answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Judgement {
-    /// The one nearest face, or a miss where there is no hit.
-    Right,
-    /// One of several nearest faces: each of them is right.
-    Tie,
-    /// The right face with a t that is off by more than [`VISIBLE`], or that is no number.
-    WrongT,
-    /// A miss where there is a hit.
-    Lost,
-    /// A face that the ray meets behind the nearest one.
-    Farther,
-    /// A face that the ray misses by a hair, by less than [`VISIBLE`] of its longest edge, and nothing is hit in front of it: a
-    /// neighbour of the nearest face, or a silhouette. Another answer, and nothing that anybody sees.
-    Neighbour,
-    /// A face that the ray does not meet, elsewhere.
-    Ghost,
+hairline_core::named! {
+    pub names
+    /// The judgement of an answer, the worst first.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Judgement {
+        /// A miss where the mesh is hit.
+        Lost = "lost",
+        /// A face behind the nearest one: slipped through.
+        Farther = "farther face",
+        /// A face elsewhere, that the ray does not meet, or a hit where nothing is.
+        Ghost = "ghost",
+        /// Fewer hits than there are.
+        TooFew = "too few",
+        /// More hits than there are.
+        TooMany = "too many",
+        /// One hit named twice.
+        Twice = "twice",
+        /// A hit named before one that is nearer.
+        WrongOrder = "wrong order",
+        /// The other side of the surface.
+        WrongSide = "wrong side",
+        /// The right face, with a t that is off by over 1/1000 of its longest edge, or that is no number.
+        WrongT = "wrong t",
+        /// Off by a hair, which nobody sees.
+        Neighbour = "neighbour",
+        /// Not defined: the surface is open.
+        NotDefined = "not defined",
+        /// One of several right answers.
+        Tie = "right, a tie",
+        /// The exact answer.
+        Right = "right",
+    }
 }
 
 impl Judgement {
-    /// True if it may be seen: the ray is lost, or hits elsewhere.
+    /// True if it may be seen: a ray is lost, or hits elsewhere.
     pub fn is_wrong(self) -> bool {
-        match self {
-            Judgement::Right | Judgement::Tie | Judgement::Neighbour => false,
-            Judgement::WrongT | Judgement::Lost | Judgement::Farther | Judgement::Ghost => true,
-        }
+        self < Judgement::Neighbour
+    }
+
+    /// True if it is the exact answer, or one of several.
+    pub fn is_right(self) -> bool {
+        matches!(self, Judgement::Right | Judgement::Tie)
     }
 }
 
@@ -57,16 +74,39 @@ impl Judgement {
 pub struct Judged {
     /// The judgement.
     pub judgement: Judgement,
-    /// The truth.
-    pub nearest: Option<Nearest>,
+    /// The exact hit that it is about: the nearest one; of all hits the first that is lost.
+    pub hit: Option<Nearest>,
     /// How far the answered point lies behind the exact one, in longest edges of the nearest face: by its t, or of a farther
-    /// face by that face's exact t. None without such a number, and where it is beyond the range of `f64`.
-    pub behind: Option<f64>,
+    /// face by that face's exact t. Of a point on the wrong side the distance from the surface, in longest edges of the face there.
+    /// None without such a number, and where it is beyond the range of `f64`.
+    pub off: Option<f64>,
+}
+
+impl Judged {
+    fn new(judgement: Judgement, hit: Option<Nearest>, off: Option<f64>) -> Judged {
+        Judged {
+            judgement,
+            hit,
+            off,
+        }
+    }
 }
 
 impl<F: Float> Scene<F> {
-    /// Judges an answer to a ray. An error if the ray means nothing.
+    /// Judges the nearest hit that a program answered. An error if the ray means nothing.
+    ///
+    /// A hit that a ray moved aside by less than any number misses need not be answered: a silhouette, or a wall along which the ray
+    /// runs.
     pub fn judge(&self, ray: &Ray<F>, answer: &Answer) -> Result<Judged, InvalidRay> {
+        let judged = self.judge_strictly(ray, answer)?;
+        let may_be_aside = matches!(judged.judgement, Judgement::Lost | Judgement::Farther);
+        match may_be_aside && self.is_right_aside(ray, answer)? {
+            true => Ok(Judged::new(Judgement::Neighbour, judged.hit, None)),
+            false => Ok(judged),
+        }
+    }
+
+    fn judge_strictly(&self, ray: &Ray<F>, answer: &Answer) -> Result<Judged, InvalidRay> {
         let Some(nearest) = self.nearest(ray)? else {
             let judgement = match answer.face {
                 None => Judgement::Right,
@@ -75,13 +115,9 @@ impl<F: Float> Scene<F> {
                 }
                 Some(_) => Judgement::Ghost,
             };
-            return Ok(Judged {
-                judgement,
-                nearest: None,
-                behind: None,
-            });
+            return Ok(Judged::new(judgement, None, None));
         };
-        let (judgement, behind) = match answer.face {
+        let (judgement, off) = match answer.face {
             None => (Judgement::Lost, None),
             Some(face) if nearest.faces.contains(&face) => {
                 self.of_nearest(ray, &nearest, answer)?
@@ -94,11 +130,7 @@ impl<F: Float> Scene<F> {
                 }
             },
         };
-        Ok(Judged {
-            judgement,
-            nearest: Some(nearest),
-            behind,
-        })
+        Ok(Judged::new(judgement, Some(nearest), off))
     }
 
     /// Judges an answer with one of the nearest faces: by its t.
@@ -141,50 +173,31 @@ impl<F: Float> Scene<F> {
         })
     }
 
-    /// True if the point at which a ray meets a face's plane is nearer to the face than anybody sees, on the interval and at
-    /// `latest` at the most; at t, if it is given. In floats.
-    fn is_missed_by_a_hair(&self, ray: &Ray<F>, face: u32, t: Option<f64>, latest: f64) -> bool {
-        let Some(place) = self.place_of(face) else {
-            return false;
-        };
-        let triangle = self.triangle_at(place);
-        let [a, b, c] = triangle.map(DVec3::from);
-        let origin = DVec3::from(ray.origin.map(F::to_f64));
-        let direction = DVec3::from(ray.direction.map(F::to_f64));
-        let normal = (b - a).cross(c - a);
-        let crossing = (a - origin).dot(normal) / direction.dot(normal);
-        // A ray along the plane has no crossing of it, but a t perhaps.
-        let t = t.unwrap_or(crossing);
-        let point = origin + t * direction;
-        let ends = ray.t_min.to_f64()..=ray.t_max.to_f64().min(latest);
-        let hair = VISIBLE * longest_edge(&triangle);
-        ends.contains(&t) && distance_to(&triangle, point.into()) <= hair
-    }
-
-    /// How many longest edges of the nearest faces the ray covers while t grows by 1.
-    fn edges_to_a_t(&self, ray: &Ray<F>, nearest: &Nearest) -> f64 {
-        let places = nearest.faces.iter().filter_map(|face| self.place_of(*face));
-        let longest = places
-            .map(|place| longest_edge(&self.triangle_at(place)))
-            .fold(0.0, f64::max);
-        let length = DVec3::from(ray.direction.map(F::to_f64)).length();
-        length / longest
-    }
-
-    /// How far the point at t lies behind the nearest one, in longest edges of the nearest face; none if that is no number.
-    fn behind(&self, ray: &Ray<F>, nearest: &Nearest, t: f64) -> Result<Option<f64>, InvalidRay> {
-        let edges = self.edges_to_a_t(ray, nearest);
-        let Bounds { lower, upper } = nearest.t;
-        let later = match (upper - lower) * edges <= TELLING {
-            true => t - lower.midpoint(upper),
-            // The bounds are too wide to say it.
-            false => {
-                let exact = self.values(ray, nearest.faces[0])?;
-                exact.map_or(f64::NAN, |exact| t - exact.t[0])
+    /// True if an answer is right for a ray that is moved aside by less than any number.
+    fn is_right_aside(&self, ray: &Ray<F>, answer: &Answer) -> Result<bool, InvalidRay> {
+        for passage in self.passages(ray)? {
+            if let Some(face) = answer.face.filter(|face| passage.faces.contains(face)) {
+                return self.is_at(ray, face, answer.t);
             }
-        };
-        // Faces that are points have no edge to measure by.
-        let behind = if later == 0.0 { 0.0 } else { later * edges };
-        Ok(Some(behind).filter(|behind| behind.is_finite()))
+            if !passage.is_silhouette {
+                return Ok(false);
+            }
+        }
+        Ok(answer.face.is_none())
     }
+
+    /// True if a ray meets a face at a t, as near as anybody sees; at any t, if none is given.
+    fn is_at(&self, ray: &Ray<F>, face: u32, t: Option<f64>) -> Result<bool, InvalidRay> {
+        let (Some(values), Some(t)) = (self.values(ray, face)?, t) else {
+            return Ok(t.is_none());
+        };
+        let hair = self.hair(ray, face);
+        let [first, last] = values.t;
+        Ok((first - hair..=last + hair).contains(&t))
+    }
+}
+
+/// The length of a direction, in floats.
+fn length<F: Float>(direction: [F; 3]) -> f64 {
+    glam::DVec3::from(direction.map(F::to_f64)).length()
 }

@@ -78,7 +78,7 @@ pub use define::{DefinedHit, define, define_instances, nearest_of};
 pub use hairline_core::case::Matrix;
 pub use instance::{Instance, InstanceError, PlacedFace, WrongInstance};
 pub use instances::Instances;
-pub use judge::{Answer, Judged, Judgement, VISIBLE};
+pub use judge::{Answer, Judged, Judgement, NamedHit, NamedPlace, VISIBLE};
 pub use mesh::{MeshError, Triangle, triangles};
 pub use passage::{Location, Passage};
 pub use ray::{InvalidRay, Ray};

@@ -47,7 +47,7 @@ pub fn change(direction: [f64; 3], crossed: &[Crossed]) -> Result<Winding, OpenE
     let shift = Shift::of(direction);
     let mut sum = Winding::Number(0);
     for face in crossed {
-        if shift.still_meets(direction, face) {
+        if shift.still_meets(direction, face, [Way::Up; 2]) {
             sum = sum.plus(Winding::Number(match face.facing {
                 Facing::Front => 1,
                 Facing::Back => -1,
@@ -69,6 +69,35 @@ pub fn change(direction: [f64; 3], crossed: &[Crossed]) -> Result<Winding, OpenE
     Ok(if is_oriented { sum } else { sum.parity() })
 }
 
+/// True if the line, moved aside in one of four ways, meets none of these faces: whoever misses them is off by less than any
+/// number.
+pub fn are_missed_aside(direction: [f64; 3], crossed: &[Crossed]) -> bool {
+    let shift = Shift::of(direction);
+    let is_missed = |ways: [Way; 2]| {
+        let mut faces = crossed.iter();
+        !faces.any(|face| shift.still_meets(direction, face, ways))
+    };
+    let both = [Way::Up, Way::Down];
+    both.into_iter()
+        .any(|first| both.into_iter().any(|second| is_missed([first, second])))
+}
+
+/// The way in which the line is moved along an axis.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Up,
+    Down,
+}
+
+impl Way {
+    fn of(self, sign: Ordering) -> Ordering {
+        match self {
+            Way::Up => sign,
+            Way::Down => sign.reverse(),
+        }
+    }
+}
+
 impl Shift {
     fn of(direction: [f64; 3]) -> Shift {
         let k = direction.iter().position(|x| *x != 0.0).unwrap_or(0);
@@ -85,8 +114,8 @@ impl Shift {
         self.axes.map(|axis| all[axis].clone())
     }
 
-    /// True if the moved line meets the inside of a face.
-    fn still_meets(self, direction: [f64; 3], face: &Crossed) -> bool {
+    /// True if the line, moved along the two axes in these ways, meets the inside of a face.
+    fn still_meets(self, direction: [f64; 3], face: &Crossed, ways: [Way; 2]) -> bool {
         let needed = match face.facing {
             Facing::Front => Ordering::Less,
             Facing::Back => Ordering::Greater,
@@ -94,7 +123,8 @@ impl Shift {
         edges_through(face).into_iter().all(|[p, q]| {
             let ends = [p, q].map(|i| face.triangle[i]);
             let [first, second] = self.seen(direction, ends);
-            let (first, second) = (ExactInteger::sign(&first), ExactInteger::sign(&second));
+            let first = ways[0].of(ExactInteger::sign(&first));
+            let second = ways[1].of(ExactInteger::sign(&second));
             // (p-q)×d has the opposite signs.
             first.then(second).reverse() == needed
         })

@@ -2,7 +2,7 @@
 
 use crate::bounds::Bounds;
 use crate::found::{Common, End, Found};
-use crate::moved::{Crossed, change};
+use crate::moved::{Crossed, are_missed_aside, change};
 use crate::query::Query;
 use crate::ray::{InvalidRay, Ray};
 use crate::scene::Scene;
@@ -19,6 +19,9 @@ pub struct Passage {
     pub to: Bounds,
     /// True if the line runs in the surface from the first t to a later one.
     pub is_segment: bool,
+    /// True if a line that is moved aside by less than any number meets none of the faces: a silhouette, or a wall that the line
+    /// runs along.
+    pub is_silhouette: bool,
     /// All faces of the passage, by number.
     pub faces: Vec<u32>,
     /// The winding after the passage less that before it; an edge if it is not defined because the surface is open here.
@@ -73,10 +76,12 @@ impl<F: Float> Scene<F> {
         let mut passages = Vec::new();
         let mut before = self.nothing();
         for component in self.components(&line, &query) {
-            let change = self.change(&line, &component);
+            let crossed = self.crossed(&component);
+            let change = change(line.direction, &crossed);
             let after = sum(before, change);
             if self.is_in_interval(&query, &component, &ray) {
-                passages.push(self.passage(&component, change, before, after));
+                let is_silhouette = are_missed_aside(line.direction, &crossed);
+                passages.push(self.passage(&component, is_silhouette, change, [before, after]));
             }
             before = after;
         }
@@ -102,7 +107,8 @@ impl<F: Float> Scene<F> {
                 faces.sort();
                 return Ok(Location::On(faces));
             }
-            sum_of_changes = sum(sum_of_changes, self.change(&ray, &component));
+            let change = change(ray.direction, &self.crossed(&component));
+            sum_of_changes = sum(sum_of_changes, change);
         }
         Ok(match sum_of_changes {
             Ok(winding) => Location::Off(winding.negated()),
@@ -146,7 +152,8 @@ impl<F: Float> Scene<F> {
         components
     }
 
-    fn change(&self, ray: &Ray<f64>, component: &Component) -> Result<Winding, OpenEdge> {
+    /// The faces of a component that are not parallel to the line.
+    fn crossed(&self, component: &Component) -> Vec<Crossed> {
         let mut crossed = Vec::new();
         for found in &component.found {
             if let Common::Crossing(facing, feature) = found.common {
@@ -158,7 +165,7 @@ impl<F: Float> Scene<F> {
                 });
             }
         }
-        change(ray.direction, &crossed)
+        crossed
     }
 
     /// True if a component of the line has a point in the ray's interval.
@@ -173,9 +180,9 @@ impl<F: Float> Scene<F> {
     fn passage(
         &self,
         component: &Component,
+        is_silhouette: bool,
         change: Result<Winding, OpenEdge>,
-        before: Result<Winding, OpenEdge>,
-        after: Result<Winding, OpenEdge>,
+        [before, after]: [Result<Winding, OpenEdge>; 2],
     ) -> Passage {
         let places = component.found.iter().map(|found| found.place);
         let mut faces: Vec<u32> = places.map(|place| self.face_at(place)).collect();
@@ -188,6 +195,7 @@ impl<F: Float> Scene<F> {
             from: component.found[0].from,
             to: component.found[component.last].to,
             is_segment: component.found.iter().any(Found::is_segment),
+            is_silhouette,
             faces,
             change,
             around,

@@ -176,6 +176,11 @@ impl<F: Float> Scene<F> {
         place.filter(|place| *place != NO_PLACE)
     }
 
+    /// How many faces are finite: their places are the numbers below.
+    pub(crate) fn face_count(&self) -> u32 {
+        self.faces.len() as u32
+    }
+
     pub(crate) fn face_at(&self, place: u32) -> u32 {
         self.faces[place as usize]
     }

@@ -11,7 +11,7 @@ fn squares() -> Scene<f64> {
 
 fn judged(ray: &Ray<f64>, face: Option<u32>, t: Option<f64>) -> (Judgement, Option<f64>) {
     let judged = squares().judge(ray, &Answer { face, t }).unwrap();
-    (judged.judgement, judged.behind)
+    (judged.judgement, judged.off)
 }
 
 #[test]

@@ -12,6 +12,7 @@ mod extremes;
 mod inside_reports;
 mod instances;
 mod judge;
+mod judge_hits;
 mod laws;
 mod passages;
 mod reports;

@@ -1,0 +1,106 @@
+//! How far an answer is off, in floats: these distances name a judgement and decide no hit.
+
+use super::{VISIBLE, length};
+use crate::bounds::Bounds;
+use crate::distance::{distance_to, longest_edge};
+use crate::ray::{InvalidRay, Ray};
+use crate::scene::{Nearest, Scene};
+use glam::DVec3;
+use hairline_core::Float;
+
+/// Bounds of t that are nearer to each other, in longest edges, tell how far an answer is off.
+const TELLING: f64 = 1e-9;
+
+impl<F: Float> Scene<F> {
+    /// True if the point at which a ray meets a face's plane is nearer to the face than anybody sees, on the interval and at
+    /// `latest` at the most; at t, if it is given.
+    pub(super) fn is_missed_by_a_hair(
+        &self,
+        ray: &Ray<F>,
+        face: u32,
+        t: Option<f64>,
+        latest: f64,
+    ) -> bool {
+        let Some(place) = self.place_of(face) else {
+            return false;
+        };
+        let triangle = self.triangle_at(place);
+        let origin = DVec3::from(ray.origin.map(F::to_f64));
+        let direction = DVec3::from(ray.direction.map(F::to_f64));
+        // A ray along the plane has no crossing of it, but a t perhaps.
+        let t = t.unwrap_or_else(|| self.plane_t(ray, face));
+        let point = origin + t * direction;
+        let ends = ray.t_min.to_f64()..=ray.t_max.to_f64().min(latest);
+        let hair = VISIBLE * longest_edge(&triangle);
+        ends.contains(&t) && distance_to(&triangle, point.into()) <= hair
+    }
+
+    /// The t at which a ray meets the plane of a face; NaN if it does not.
+    pub(super) fn plane_t(&self, ray: &Ray<F>, face: u32) -> f64 {
+        let Some(place) = self.place_of(face) else {
+            return f64::NAN;
+        };
+        let [a, b, c] = self.triangle_at(place).map(DVec3::from);
+        let origin = DVec3::from(ray.origin.map(F::to_f64));
+        let direction = DVec3::from(ray.direction.map(F::to_f64));
+        let normal = (b - a).cross(c - a);
+        (a - origin).dot(normal) / direction.dot(normal)
+    }
+
+    /// The length of a face's longest edge; 0 if there is no such face.
+    pub(super) fn longest_edge_of(&self, face: u32) -> f64 {
+        let place = self.place_of(face);
+        place.map_or(0.0, |place| longest_edge(&self.triangle_at(place)))
+    }
+
+    /// The step of t that is too short to be seen at a face.
+    pub(super) fn hair(&self, ray: &Ray<F>, face: u32) -> f64 {
+        VISIBLE * self.longest_edge_of(face) / length(ray.direction)
+    }
+
+    /// How many longest edges of the nearest faces the ray covers while t grows by 1.
+    pub(super) fn edges_to_a_t(&self, ray: &Ray<F>, nearest: &Nearest) -> f64 {
+        let edges = nearest.faces.iter().map(|face| self.longest_edge_of(*face));
+        length(ray.direction) / edges.fold(0.0, f64::max)
+    }
+
+    /// How far the point at t lies behind the nearest one, in longest edges of the nearest face; none if that is no number.
+    pub(super) fn behind(
+        &self,
+        ray: &Ray<F>,
+        nearest: &Nearest,
+        t: f64,
+    ) -> Result<Option<f64>, InvalidRay> {
+        let edges = self.edges_to_a_t(ray, nearest);
+        let Bounds { lower, upper } = nearest.t;
+        let later = match (upper - lower) * edges <= TELLING {
+            true => t - lower.midpoint(upper),
+            // The bounds are too wide to say it.
+            false => {
+                let exact = self.values(ray, nearest.faces[0])?;
+                exact.map_or(f64::NAN, |exact| t - exact.t[0])
+            }
+        };
+        // Faces that are points have no edge to measure by.
+        let behind = if later == 0.0 { 0.0 } else { later * edges };
+        Ok(Some(behind).filter(|behind| behind.is_finite()))
+    }
+
+    /// The distance of a point from the surface, in longest edges of the face there. None without a face.
+    pub(super) fn distance_in_edges(&self, point: [F; 3]) -> Option<f64> {
+        let point = point.map(F::to_f64);
+        let triangles = (0..self.face_count()).map(|place| self.triangle_at(place));
+        let distances = triangles.map(|triangle| {
+            let distance = distance_to(&triangle, point);
+            (distance, distance / longest_edge(&triangle))
+        });
+        let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map(|(_, in_edges)| in_edges)
+    }
+
+    /// True if a ray that meets no face passes one by a hair. Every face is looked at.
+    pub(super) fn passes_by_a_hair(&self, ray: &Ray<F>) -> bool {
+        let mut faces = (0..self.face_count()).map(|place| self.face_at(place));
+        faces.any(|face| self.is_missed_by_a_hair(ray, face, None, f64::INFINITY))
+    }
+}

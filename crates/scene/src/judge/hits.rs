@@ -1,0 +1,172 @@
+//! All hits of a ray, their number, or whether there is one at all, as a program answered them.
+
+use super::{Judged, Judgement};
+use crate::passage::Passage;
+use crate::ray::{InvalidRay, Ray};
+use crate::scene::{Hit, Nearest, Scene};
+use hairline_core::Float;
+use std::collections::BTreeSet;
+
+/// One of the hits that a program named.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedHit {
+    /// The face, by number.
+    pub face: u32,
+    /// Its t, if the program gives one.
+    pub t: Option<f64>,
+}
+
+/// The place of a named hit among the passages of a ray.
+enum Place {
+    /// The ray meets the face, in this passage.
+    Met(usize),
+    /// The ray misses the face by a hair, near this passage if there is one.
+    ByAHair(Option<usize>),
+    /// Nowhere near.
+    Nowhere,
+}
+
+/// The hits that a program named in one passage.
+#[derive(Clone, Default)]
+struct NamedThere {
+    met: usize,
+    by_a_hair: usize,
+}
+
+impl<F: Float> Scene<F> {
+    /// Judges all hits that a program named, in its order. Every point has to be named once at least, by one of the faces that are
+    /// met there; which of them, and how many, is a program's own way. An error if the ray means nothing.
+    pub fn judge_hits(&self, ray: &Ray<F>, named: &[NamedHit]) -> Result<Judged, InvalidRay> {
+        let passages = self.passages(ray)?;
+        let hits = self.hits(ray)?;
+        let mut there = vec![NamedThere::default(); passages.len()];
+        let mut kinds = BTreeSet::new();
+        let mut last = 0;
+        for hit in named {
+            let exact = hits.iter().find(|it| it.faces.contains(&hit.face));
+            let passage = match self.place_of_hit(ray, &passages, exact, hit) {
+                Place::Met(i) => {
+                    there[i].met += 1;
+                    Some(i)
+                }
+                Place::ByAHair(near) => {
+                    kinds.insert(Judgement::Neighbour);
+                    if let Some(i) = near {
+                        there[i].by_a_hair += 1;
+                    }
+                    near
+                }
+                Place::Nowhere => {
+                    kinds.insert(Judgement::Ghost);
+                    None
+                }
+            };
+            let Some(passage) = passage else {
+                continue;
+            };
+            if passage < last {
+                kinds.insert(Judgement::WrongOrder);
+            }
+            last = passage.max(last);
+            if exact.is_some_and(|exact| self.is_off(ray, exact, hit)) {
+                kinds.insert(Judgement::WrongT);
+            }
+        }
+        let faces: BTreeSet<u32> = named.iter().map(|hit| hit.face).collect();
+        if faces.len() < named.len() {
+            kinds.insert(Judgement::Twice);
+        }
+        let mut lost = None;
+        for (passage, there) in passages.iter().zip(&there) {
+            kinds.insert(judgement_of(passage, there));
+            if lost.is_none() && judgement_of(passage, there) == Judgement::Lost {
+                lost = Some(Nearest {
+                    t: passage.from,
+                    faces: passage.faces.clone(),
+                });
+            }
+        }
+        // The worst; of nothing, rightly, nothing.
+        let worst = kinds.first().copied().unwrap_or(Judgement::Right);
+        Ok(Judged::new(worst, lost, None))
+    }
+
+    /// The place of a named hit among the passages; `exact` is the exact hit of its face, if the ray meets that.
+    fn place_of_hit(
+        &self,
+        ray: &Ray<F>,
+        passages: &[Passage],
+        exact: Option<&Hit>,
+        hit: &NamedHit,
+    ) -> Place {
+        // A passage may reach beyond the ray's interval, and have faces there.
+        let place = passages.iter().position(|it| it.faces.contains(&hit.face));
+        if let Some(place) = place.filter(|_| exact.is_some()) {
+            return Place::Met(place);
+        }
+        if !self.is_missed_by_a_hair(ray, hit.face, hit.t, f64::INFINITY) {
+            return Place::Nowhere;
+        }
+        let t = hit.t.unwrap_or_else(|| self.plane_t(ray, hit.face));
+        let hair = self.hair(ray, hit.face);
+        let is_near =
+            |passage: &Passage| (passage.from.lower - hair..=passage.to.upper + hair).contains(&t);
+        Place::ByAHair(passages.iter().position(is_near))
+    }
+
+    /// True if the t of a named hit is off by more than anybody sees.
+    fn is_off(&self, ray: &Ray<F>, exact: &Hit, hit: &NamedHit) -> bool {
+        let hair = self.hair(ray, hit.face);
+        let range = exact.from.lower - hair..=exact.to.upper + hair;
+        hit.t.is_some_and(|t| !range.contains(&t))
+    }
+
+    /// Judges whether a program found any hit. An error if the ray means nothing.
+    pub fn judge_any(&self, ray: &Ray<F>, is_hit: bool) -> Result<Judged, InvalidRay> {
+        let Some(nearest) = self.nearest(ray)? else {
+            let judgement = match is_hit {
+                false => Judgement::Right,
+                true if self.passes_by_a_hair(ray) => Judgement::Neighbour,
+                true => Judgement::Ghost,
+            };
+            return Ok(Judged::new(judgement, None, None));
+        };
+        let judgement = match is_hit {
+            true => Judgement::Right,
+            false if self.passages(ray)?.iter().all(|it| it.is_silhouette) => Judgement::Neighbour,
+            false => Judgement::Lost,
+        };
+        Ok(Judged::new(judgement, Some(nearest), None))
+    }
+
+    /// Judges the number of hits that a program counted: of points, or of faces, where one of two at an edge counts too. Silhouettes
+    /// may be left out. An error if the ray means nothing.
+    pub fn judge_count(&self, ray: &Ray<F>, count: u64) -> Result<Judged, InvalidRay> {
+        let passages = self.passages(ray)?;
+        let points = passages.len() as u64;
+        let seen = passages.iter().filter(|it| !it.is_silhouette).count() as u64;
+        let hits = self.hits(ray)?;
+        let faces: u64 = hits.iter().map(|hit| hit.faces.len() as u64).sum();
+        let judgement = match count {
+            _ if count == points => Judgement::Right,
+            _ if count == faces => Judgement::Tie,
+            _ if count < seen => Judgement::TooFew,
+            _ if count < points => Judgement::Neighbour,
+            _ => Judgement::TooMany,
+        };
+        Ok(Judged::new(judgement, self.nearest(ray)?, None))
+    }
+}
+
+/// The judgement of what was named in a passage.
+fn judgement_of(passage: &Passage, there: &NamedThere) -> Judgement {
+    let named = there.met + there.by_a_hair;
+    match named {
+        0 if passage.is_silhouette => Judgement::Neighbour,
+        0 => Judgement::Lost,
+        // Where the ray meets one face only, its neighbour is a hit too many.
+        _ if 1 < named && 0 < there.by_a_hair && !passage.is_silhouette => Judgement::Twice,
+        _ if there.met < passage.faces.len() => Judgement::Tie,
+        _ => Judgement::Right,
+    }
+}
