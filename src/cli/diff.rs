@@ -12,6 +12,7 @@ use crate::report::offset::OffsetResult;
 use crate::report::proofs::ProofResult;
 use crate::vectors::VerifyResult;
 use clap::Args;
+use hairline_rays::RaysResult;
 
 /// The arguments of `diff`: the records to compare, and how to report.
 #[derive(Args)]
@@ -48,6 +49,7 @@ pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
         Study::Prove => of_one_study::<ProofResult>(old, new)?,
         Study::Verify => of_one_study::<VerifyResult>(old, new)?,
         Study::Boxes => of_one_study::<BoxesResult>(old, new)?,
+        Study::Rays => of_one_study::<RaysResult>(old, new)?,
     };
     if comparison.common == 0 {
         let message = "nothing to compare: the records have no kernel with its epsilons on the same kind of rays in common; two kernels, or two epsilons of one, are compared in one run";
@@ -98,6 +100,7 @@ mod tests {
         Prove(Record<ProofResult>),
         Verify(Record<VerifyResult>),
         Boxes(Record<BoxesResult>),
+        Rays(Record<RaysResult>),
     }
 
     #[test]

@@ -29,6 +29,7 @@ mod generate;
 mod github;
 mod help;
 mod input;
+mod known;
 mod list;
 mod map;
 mod merge;

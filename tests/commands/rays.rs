@@ -98,14 +98,17 @@ fn answers_are_judged_by_kind() {
             "{said}"
         );
     }
-    let wrong = judged("0,5\nnone\n2,1\n", 1);
-    assert!(wrong.starts_with("3 of 3 answers are wrong "), "{wrong}");
+    let lost = judged("none\n1\n-1\n", 1);
+    assert!(lost.contains(" lost 1 - - "), "{lost}");
     assert!(
-        wrong.contains(" 2 nearest hits are lost: missed, or another face is answered. "),
-        "{wrong}"
+        lost.contains(" 1 exact hit is lost: missed, or another face is answered. "),
+        "{lost}"
     );
+    // Who misses the second one sees the same: the ray runs along an edge, and comes back.
+    let wrong = judged("0,5\nnone\n2,1\n", 1);
+    assert!(wrong.starts_with("2 of 3 answers are wrong "), "{wrong}");
     for kind in [
-        " lost 1 - - ",
+        " neighbour 1 - - ",
         " farther face 1 0.530 0.530 ",
         " ghost 1 - - ",
     ] {
@@ -161,8 +164,9 @@ fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
         "{guessed}"
     );
     assert!(
-        guessed
-            .contains(": 1 answer is right there, and 0 by the numbers as written (--scalar f64)."),
+        guessed.contains(
+            ": 1 answer is right that way, and 0 by the numbers as written (--scalar f64)."
+        ),
         "{guessed}"
     );
     judged("0,1\n", &["--scalar", "f64"], 1);
@@ -171,6 +175,242 @@ fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
     fs::write(folder.join("r.csv"), "0.5,0.25,1e300,0,0,-1e300\n").unwrap();
     let far = judged("1,1\n", &[], 1);
     assert!(far.starts_with("1 of 1 answer is wrong "), "{far}");
+}
+
+#[test]
+fn other_answers_than_the_nearest_hit_are_judged_too() {
+    let folder = folder("rays-kinds");
+    fs::write(folder.join("p.csv"), "0.125 0.125 0.125\n1,1,1\n0,0,0.5\n").unwrap();
+    let judged = |questions: &[&str], kind: &str, answers: &str, code: i32| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = ["rays", "t.obj", "-q", "--answers", "a.csv", "--answered"];
+        let words = [&words, &[kind][..], questions].concat();
+        flat(&ends(&folder, &words, code).0)
+    };
+    let rays = ["r.csv"];
+    let points = ["--points", "p.csv"];
+    for (questions, kind, answers) in [
+        (&rays[..], "any", "hit\n1\n0\n"),
+        (
+            &rays,
+            "any",
+            "{\"hit\":true}\n{\"hit\":true}\n{\"hit\":false}\n",
+        ),
+        (&rays, "count", "count\n2\n1\n0\n"),
+        (&rays, "count", "2\n4\n0\n"),
+        (&rays, "all", "ray,face,t\n0,3,4.25\n0,0,5\n1,2,4.5\n"),
+        (&rays, "all", "0 3\n0 0\n"),
+        (&points, "inside", "inside\noutside\non\n"),
+        (&points, "inside", "1\n0\n0\n"),
+    ] {
+        let said = judged(questions, kind, answers, 0);
+        assert!(said.starts_with("None of 3 answers is wrong "), "{said}");
+    }
+    for (questions, kind, answers, words) in [
+        (&rays[..], "any", "0\n1\n1\n", " lost 1 - - ghost 1 - - "),
+        (
+            &rays,
+            "count",
+            "1\n1\n2\n",
+            " too few 1 - - too many 1 - - ",
+        ),
+        (&rays, "all", "0,0,5\n0,3,4.25\n", " wrong order 1 - - "),
+        (
+            &rays,
+            "all",
+            "0,3\n0,0\n0,0\n2,1\n",
+            " ghost 1 - - twice 1 - - ",
+        ),
+        (
+            &rays,
+            "all",
+            "0,3\n",
+            "ray 0: face 0 is met too; answered faces 3",
+        ),
+        (
+            &points,
+            "inside",
+            "0\n0\n1\n",
+            " wrong side 1 0.088 0.088 ",
+        ),
+        (
+            &points,
+            "inside",
+            "0\n0\n1\n",
+            "point 0: answered outside, 0.088 longest edges from the surface",
+        ),
+    ] {
+        let said = judged(questions, kind, answers, 1);
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let refused = |words: &[&str], code: i32, message: &str| {
+        let words = [&["rays", "t.obj", "-q"], words].concat();
+        let (_, error) = ends(&folder, &words, code);
+        assert!(error.contains(message), "{words:?}: {error}");
+    };
+    fs::write(folder.join("a.csv"), "3,3\n").unwrap();
+    let answers = ["--answers", "a.csv", "--answered"];
+    let asked = |kind| [&["r.csv"], &answers[..], &[kind]].concat();
+    refused(
+        &asked("all"),
+        65,
+        "a.csv:1: expected a ray's number, from 0 and below 3, first",
+    );
+    refused(&asked("count"), 65, "a.csv:1: expected one word, found 2");
+    refused(&asked("nearst"), 2, "did you mean 'nearest'?");
+    refused(&asked("inside"), 2, "Give --points FILE in place of rays");
+    let of_points = [&["--points", "p.csv"], &answers[..], &["all"]].concat();
+    refused(&of_points, 2, "points are inside or outside");
+    fs::write(folder.join("a.csv"), "maybe\n").unwrap();
+    refused(
+        &asked("any"),
+        65,
+        "a.csv:1: expected 1 for a hit or 0 for none",
+    );
+    let of_points = [&["--points", "p.csv"], &answers[..], &["inside"]].concat();
+    refused(&of_points, 65, "a.csv:1: expected inside, outside or on");
+    refused(&["--answers", "a.csv"], 2, "which rays?");
+    refused(&["r.csv", "--known", "k.toml"], 2, "whose answers?");
+}
+
+#[test]
+fn directions_of_length_1_are_found_out() {
+    let folder = folder("rays-unit");
+    fs::write(
+        folder.join("r.csv"),
+        "0.125,0.125,5,0,0,-4\n0.25,0.125,5,0,0,-4\n",
+    )
+    .unwrap();
+    fs::write(folder.join("a.csv"), "3,4.25\n3,4.375\n").unwrap();
+    let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+    let said = flat(&ends(&folder, &words, 0).0);
+    assert!(
+        said.contains(
+            "Judged with directions made of length 1, so that t is a length, as the program seems to do: 2 answers are right that way, \
+             and 0 by the numbers as written."
+        ),
+        "{said}"
+    );
+}
+
+#[test]
+fn known_wrong_answers_pass_more_fail_and_less_is_stale() {
+    let folder = folder("rays-known");
+    let held = |answers: &str, more: &[&str], code: i32| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = [
+            "rays",
+            "t.obj",
+            "r.csv",
+            "--answers",
+            "a.csv",
+            "--known",
+            "k.toml",
+        ];
+        ends(&folder, &[&words, more].concat(), code)
+    };
+    let (_, error) = held("3\n1\n2\n", &["-q"], 74);
+    assert!(
+        error.contains("with --bless this command writes it"),
+        "{error}"
+    );
+    held("3\n1\n2\n", &["--bless"], 0);
+    let text = fs::read_to_string(folder.join("k.toml")).unwrap();
+    assert!(text.contains("schema = \"hairline-rays/1\""), "{text}");
+    assert!(text.contains("\"ghost\" = 1\n"), "{text}");
+    held("3\n1\n2\n", &["-q"], 0);
+    let (screen, _) = held("0\n1\n2\n", &["-q"], 1);
+    assert!(screen.starts_with("1 worse, 0 better"), "{screen}");
+    held("3\n1\n-1\n", &["-q"], 3);
+    held("0\n1\n2\n", &["-q", "--bless"], 1);
+    held("0\n1\n2\n", &["-q", "--bless", "--accept-worse"], 0);
+    held("0\n1\n2\n", &["-q"], 0);
+    // Other rays are another question.
+    fs::write(folder.join("r.csv"), "0,0,5,0,0,1\n").unwrap();
+    let (_, error) = held("-1\n", &["-q"], 65);
+    assert!(
+        error.contains("k.toml: its counts are of 3 rays, "),
+        "{error}"
+    );
+}
+
+#[test]
+fn records_of_answers_are_compared_and_are_tests_for_a_build() {
+    let folder = folder("rays-records");
+    let judged = |answers: &str, file: &str, code: i32| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = [
+            "rays",
+            "t.obj",
+            "r.csv",
+            "-q",
+            "--answers",
+            "a.csv",
+            "-o",
+            file,
+        ];
+        ends(&folder, &words, code);
+        fs::read_to_string(folder.join(file)).unwrap()
+    };
+    let junit = judged("0\n1\n-1\n", "wrong.xml", 1);
+    assert!(junit.contains("tests=\"9\" failures=\"1\""), "{junit}");
+    assert!(
+        junit.contains("message=\"farther face: 1 of 3\""),
+        "{junit}"
+    );
+    assert!(junit.contains("hairline explain"), "{junit}");
+    judged("0\n1\n-1\n", "old.json", 1);
+    judged("3\n1\n-1\n", "new.json", 0);
+    let (screen, _) = ends(&folder, &["diff", "old.json", "new.json"], 0);
+    assert!(screen.starts_with("0 worse, 1 better"), "{screen}");
+    ends(&folder, &["diff", "new.json", "old.json", "--exit-code"], 1);
+}
+
+#[test]
+fn a_plain_program_loses_what_its_tests_lose() {
+    let folder = folder("rays-program");
+    let made = [
+        "rays",
+        "t.obj",
+        "-q",
+        "--make",
+        "2000",
+        "--kinds",
+        "vertex,edge",
+    ];
+    let judged =
+        |more: &[&str], code: i32| flat(&ends(&folder, &[&made[..], more].concat(), code).0);
+    // Its t may come out below 0 for a ray that starts on a face.
+    let watertight = judged(&["-k", "woop-watertight"], 1);
+    assert!(
+        watertight.starts_with(
+            "2 of 2,000 answers are wrong: woop-watertight (source), every face asked "
+        ),
+        "{watertight}"
+    );
+    assert!(
+        watertight.contains("They lie at the start of the ray's interval"),
+        "{watertight}"
+    );
+    let strict = judged(&["-k", "plane-inside-out-strict"], 1);
+    assert!(strict.contains("The triangle test loses them"), "{strict}");
+    // A box test that loses corners loses the faces in them.
+    let boxes = ["-k", "woop-watertight", "--box-test"];
+    let lost = judged(&[&boxes[..], &["fused"]].concat(), 1);
+    assert!(lost.contains("The box test loses them"), "{lost}");
+    let padded = [&boxes[..], &["ize"]].concat();
+    judged(&padded, 0);
+    let refused = |more: &[&str], message: &str| {
+        let (_, error) = ends(&folder, &[&made[..], more].concat(), 2);
+        assert!(error.contains(message), "{error}");
+    };
+    refused(&["-k", "wop"], "unknown kernel 'wop'");
+    refused(&["-k", "woop", "--box-test", "izee"], "did you mean 'ize'?");
+    refused(
+        &["-k", "woop", "--box-test", "ize", "--box-epsilon", "x"],
+        "is no GATE=VALUE",
+    );
+    refused(&["-k", "woop", "--answers", "a.csv"], "cannot be used with");
 }
 
 #[test]

@@ -29,7 +29,7 @@ pub const SCHEMA: &str = "hairline-record/2";
 pub struct Record<R = ResultPart> {
     /// [`SCHEMA`].
     pub schema: String,
-    /// The study: `audit`, `epsilon`, `offset`, `prove`, `verify` or `boxes`.
+    /// The study: `audit`, `epsilon`, `offset`, `prove`, `verify`, `boxes` or `rays`.
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub study: Study,
     /// The findings.

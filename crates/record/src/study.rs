@@ -23,6 +23,8 @@ named! {
         Verify = "verify",
         /// Slab tests on boxes.
         Boxes = "boxes",
+        /// Answers of a program about rays at a mesh.
+        Rays = "rays",
     }
 }
 

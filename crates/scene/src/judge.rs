@@ -126,7 +126,11 @@ impl<F: Float> Scene<F> {
                 None => self.of_unmet(ray, &nearest, face, answer.t)?,
                 Some(values) => {
                     let behind = self.behind(ray, &nearest, values.t[0])?;
-                    (Judgement::Farther, behind)
+                    // Near an edge the ray may meet both faces, one just behind the other.
+                    match behind.is_some_and(|behind| behind <= VISIBLE) {
+                        true => (Judgement::Neighbour, behind),
+                        false => (Judgement::Farther, behind),
+                    }
                 }
             },
         };

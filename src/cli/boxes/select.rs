@@ -5,11 +5,9 @@ use crate::cli::flags::{RUNNING, chosen_scalars, unknown};
 use crate::cli::input::read_mesh;
 use crate::cli::plugins::PluginArguments;
 use crate::kernel::EpsilonText;
-use crate::printable::printable;
-use crate::record::number_of;
 use clap::Args;
 use hairline_boxes::{BoxEntry, FAMILIES, Family, Scene, Setup, Source, TABLE, Tree, find_family};
-use std::path::Path;
+use hairline_rays::mesh_label;
 
 /// Which slab tests, with which epsilons.
 #[derive(Args)]
@@ -158,14 +156,10 @@ impl CaseArguments {
 /// The boxes of a mesh, by the name of its file, the number of its faces and a digest.
 fn tree(path: &str, is_quiet: bool) -> Result<Tree, Failure> {
     let mesh = read_mesh(path, is_quiet)?;
-    let file = Path::new(path).file_name().unwrap_or_default();
-    let file = printable(&file.to_string_lossy());
-    let faces = number_of(mesh.triangles.len() as u64, "face", "faces");
-    let name = format!("{file} ({faces}, {})", &mesh.digest[..8]);
     let triangles: Vec<_> = (0..mesh.triangles.len())
         .map(|i| mesh.vertices(i))
         .collect();
-    Tree::new(name, &triangles).map_err(Failure::bad_input)
+    Tree::new(mesh_label(&mesh), &triangles).map_err(Failure::bad_input)
 }
 
 fn found_family(name: &str) -> Result<&'static Family, Failure> {

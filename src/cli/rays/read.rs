@@ -1,4 +1,4 @@
-//! Rays, points and answers in files of other people.
+//! Rays and points in files of other people, line by line.
 
 use crate::cli::exit::Failure;
 use crate::cli::input::open;
@@ -7,14 +7,11 @@ use crate::files::json::Object;
 use crate::files::text_lines::TextLines;
 use crate::files::{json, number};
 use crate::kernel::Scalar;
-use hairline_scene::{Answer, Ray};
+use hairline_scene::Ray;
 use std::io::BufReader;
 
 /// The most bytes of a line.
-const LONGEST_LINE: usize = 1 << 16;
-
-/// The words of programs for no face: a signed and an unsigned -1.
-const NO_FACE: [&str; 6] = ["-1", "4294967295", "none", "null", "miss", ""];
+pub(super) const LONGEST_LINE: usize = 1 << 16;
 
 /// The form of a ray, for messages.
 const RAY: &str = "origin and direction as six numbers, or eight with t_min and t_max";
@@ -25,7 +22,7 @@ pub(super) fn rays<F: Scalar>(file: &str) -> Result<Vec<Ray<F>>, Failure> {
         true => ray_of_json(line),
         false => ray_of_numbers(&words(line)),
     };
-    lines(file, "rays", read)
+    lines(file, "rays", is_head, read)
 }
 
 /// The points of a file.
@@ -36,33 +33,7 @@ pub(super) fn points<F: Scalar>(file: &str) -> Result<Vec<[F; 3]>, Failure> {
         <[F; 3]>::try_from(numbers)
             .map_err(|_| format!("expected three numbers of a point, found {count}"))
     };
-    lines(file, "points", read)
-}
-
-/// The answers of a file, one for each of so many rays, at a mesh of so many faces.
-pub(super) fn answers(file: &str, rays: usize, faces: usize) -> Result<Vec<Answer>, Failure> {
-    let read = |line: &str| {
-        let answer = match line.starts_with('{') {
-            true => answer_of_json(line),
-            false => answer_of_words(&words(line)),
-        }?;
-        // One more than there are is what a program says that counts from 1.
-        match answer.face {
-            Some(face) if faces < face as usize => Err(format!(
-                "face {face}, and the mesh has {faces}, counted from 0"
-            )),
-            _ => Ok(answer),
-        }
-    };
-    let answers = lines(file, "answers", read)?;
-    if answers.len() != rays {
-        let message = format!(
-            "{} answers to {rays} rays: expected one a line, in the order of the rays",
-            answers.len()
-        );
-        return Err(InputError::of(file, message).into());
-    }
-    Ok(answers)
+    lines(file, "points", is_head, read)
 }
 
 /// A ray as words of a command line: `0,0,5 0,0,-1`.
@@ -71,9 +42,10 @@ pub(super) fn ray_of_words<F: Scalar>(text: &str) -> Result<Ray<F>, Failure> {
 }
 
 /// One thing a line. A first line of names alone, and lines that begin with #, are skipped.
-fn lines<T>(
+pub(super) fn lines<T>(
     file: &str,
     what: &str,
+    is_head: impl Fn(&str) -> bool,
     read: impl Fn(&str) -> Result<T, String>,
 ) -> Result<Vec<T>, Failure> {
     let mut all = Vec::new();
@@ -93,19 +65,17 @@ fn lines<T>(
     Ok(all)
 }
 
-/// True of a line of names: nothing that stands for a number, or for no face.
-fn is_head(line: &str) -> bool {
+/// True of a line of names: nothing that stands for a number.
+pub(super) fn is_head(line: &str) -> bool {
     let is_name = |word: &str| {
         let is_number = number::parse::<f64>(word).is_ok();
         word.starts_with(|c: char| c.is_ascii_alphabetic()) && !is_number
     };
-    words(line)
-        .first()
-        .is_some_and(|first| is_name(first) && !NO_FACE.contains(first))
+    words(line).first().is_some_and(|first| is_name(first))
 }
 
 /// The words between commas, semicolons and spaces; between two commas may be none.
-fn words(line: &str) -> Vec<&str> {
+pub(super) fn words(line: &str) -> Vec<&str> {
     match line.contains([',', ';']) {
         true => {
             let parts = line.split([',', ';']);
@@ -153,51 +123,9 @@ fn ray_of_json<F: Scalar>(line: &str) -> Result<Ray<F>, String> {
 }
 
 /// A JSON number, or a string that is one: JSON has no infinity.
-fn json_number<F: Scalar>(text: &str) -> Result<F, String> {
+pub(super) fn json_number<F: Scalar>(text: &str) -> Result<F, String> {
     match text.starts_with('"') {
         true => number::parse(&json::string(text)?),
         false => number::parse(text),
     }
-}
-
-fn answer_of_words(words: &[&str]) -> Result<Answer, String> {
-    let (face, t) = match words {
-        [face] => (*face, None),
-        [face, t] => (*face, Some(*t)),
-        _ => {
-            return Err(format!(
-                "expected a face and its t, as 12,0.5, found {} words",
-                words.len()
-            ));
-        }
-    };
-    answer(face, t)
-}
-
-fn answer_of_json(line: &str) -> Result<Answer, String> {
-    let object = Object::parse(line, &["face", "t"])?;
-    answer(
-        object.get("face").unwrap_or("null"),
-        object.get("t").filter(|t| *t != "null"),
-    )
-}
-
-fn answer(face: &str, t: Option<&str>) -> Result<Answer, String> {
-    if NO_FACE.contains(&face) {
-        return Ok(Answer {
-            face: None,
-            t: None,
-        });
-    }
-    let face = face.parse().map_err(|_| {
-        format!(
-            "expected a face's number from 0, or -1 for a miss, found {}",
-            json::quoted(face)
-        )
-    })?;
-    let t = t.filter(|t| !t.is_empty()).map(json_number).transpose()?;
-    Ok(Answer {
-        face: Some(face),
-        t,
-    })
 }

@@ -58,6 +58,12 @@ impl<F: Float> Scene<F> {
         VISIBLE * self.longest_edge_of(face) / length(ray.direction)
     }
 
+    /// True if a t is so near to a hit that nobody sees the difference.
+    pub fn is_near(&self, ray: &Ray<F>, hit: &Nearest, t: f64) -> bool {
+        let hair = VISIBLE / self.edges_to_a_t(ray, hit);
+        (hit.t.lower - hair..=hit.t.upper + hair).contains(&t)
+    }
+
     /// How many longest edges of the nearest faces the ray covers while t grows by 1.
     pub(super) fn edges_to_a_t(&self, ray: &Ray<F>, nearest: &Nearest) -> f64 {
         let edges = nearest.faces.iter().map(|face| self.longest_edge_of(*face));

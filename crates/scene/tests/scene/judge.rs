@@ -130,3 +130,25 @@ fn t_is_told_from_the_first_point_of_a_segment() {
         (Judgement::Right, Some(0.0))
     );
 }
+
+#[test]
+fn a_face_just_behind_the_nearest_one_is_a_neighbour() {
+    // A fold: below its ridge a ray meets both sides, the second one later by twice its depth.
+    let vertices = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, -1.0, 1.0],
+        [0.0, -1.0, -1.0],
+    ];
+    let ridge = Scene::<f64>::new(&vertices, &[[0, 1, 2], [0, 3, 1]]).unwrap();
+    let judged = |depth: f64| {
+        let ray = Ray::new([0.25, -depth, 3.0], [0.0, 0.0, -1.0]);
+        let answer = Answer {
+            face: Some(1),
+            t: None,
+        };
+        ridge.judge(&ray, &answer).unwrap().judgement
+    };
+    assert_eq!(judged(1e-12), Judgement::Neighbour);
+    assert_eq!(judged(0.125), Judgement::Farther);
+}

@@ -250,7 +250,7 @@ fn embree_at_a_vertex_of_an_icosphere() {
     let judged = scene.judge(&ray, &answer).unwrap();
     assert_eq!(judged.judgement, Judgement::Farther);
     assert!(
-        (judged.behind.unwrap() - 1.95 / 0.165).abs() < 0.1,
+        (judged.off.unwrap() - 1.95 / 0.165).abs() < 0.1,
         "{judged:?}"
     );
 }

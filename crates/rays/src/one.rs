@@ -1,21 +1,17 @@
 //! One ray: everything that it meets, in order.
 
-use super::RaysArguments;
-use super::found::joined;
-use crate::audit::quoted;
 use crate::case::Case;
-use crate::cli::exit::{Failure, Status};
-use crate::corpus::lines::{AnyCase, bare_case};
+use crate::corpus::lines::AnyCase;
 use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
-use crate::report::Format;
 use crate::report::page::{Block, Cell, Command, Head, Page, Paged, Row, Table};
+use crate::single::{explain_command, joined};
 use hairline_scene::{InvalidRay, OpenEdge, Passage, Ray, Scene, Winding};
 use serde::Serialize;
 
 /// A ray's meetings with a mesh.
 #[derive(Serialize)]
-struct RayTold {
+pub struct RayTold {
     scalar: &'static str,
     nearest: Option<NearestTold>,
     meetings: Vec<Meeting>,
@@ -50,23 +46,7 @@ struct Meeting {
 }
 
 /// Tells one ray.
-pub(super) fn run<F: Scalar>(
-    arguments: &RaysArguments,
-    mesh: &Mesh,
-    scene: &Scene<F>,
-    ray: Ray<F>,
-) -> Result<Status, Failure>
-where
-    Case<F>: Into<AnyCase>,
-{
-    let outputs = arguments.output.pairs(Format::OF_PAGE)?;
-    let told = told(mesh, scene, &ray)
-        .map_err(|error: InvalidRay| Failure::usage(format!("--ray: {error}")))?;
-    arguments.output.write(outputs, &told)?;
-    Ok(Status::Success)
-}
-
-fn told<F: Scalar>(mesh: &Mesh, scene: &Scene<F>, ray: &Ray<F>) -> Result<RayTold, InvalidRay>
+pub fn told<F: Scalar>(mesh: &Mesh, scene: &Scene<F>, ray: &Ray<F>) -> Result<RayTold, InvalidRay>
 where
     Case<F>: Into<AnyCase>,
 {
@@ -94,21 +74,6 @@ where
         nearest,
         meetings: meetings?,
     })
-}
-
-/// The command that shows the ray and one face of the mesh.
-pub(super) fn explain_command<F: Scalar>(mesh: &Mesh, ray: &Ray<F>, face: u32) -> String
-where
-    Case<F>: Into<AnyCase>,
-{
-    let case = case_of(mesh, ray, face);
-    format!("hairline explain {}", quoted(&bare_case(case)))
-}
-
-/// The ray against one face.
-pub(super) fn case_of<F: Scalar>(mesh: &Mesh, ray: &Ray<F>, face: u32) -> Case<F> {
-    let triangle = mesh.vertices(face as usize);
-    Case::<F>::new(ray.origin, ray.direction, triangle).on(ray.t_min, ray.t_max)
 }
 
 fn meeting<F: Scalar>(

@@ -1,14 +1,12 @@
 //! The exact answers to a file of rays.
 
-use super::RaysArguments;
-use crate::cli::exit::{Failure, Status};
-use crate::files::InputError;
+use crate::asked::{BadRay, of_all};
 use crate::kernel::Scalar;
 use crate::record::{group_digits, number_of};
 use crate::report::Format;
 use crate::report::page::{Block, Cell, Head, Page, Paged, Row, Table};
+use crate::single::joined;
 use hairline_scene::{InvalidRay, Ray, Scene};
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// How many rays a screen shows.
@@ -16,7 +14,7 @@ const SHOWN: usize = 8;
 
 /// The hits of all rays.
 #[derive(Serialize)]
-struct FoundHits {
+pub struct FoundHits {
     scalar: &'static str,
     rays: Vec<FoundHit>,
 }
@@ -34,65 +32,38 @@ struct FoundHit {
     met: usize,
 }
 
-/// The formats: those of a page, and a line a ray.
-const FORMATS: &[Format<FoundHits>] = &[
-    Format::TEXT,
-    Format::JSON,
-    Format::MARKDOWN,
-    Format::HTML,
-    Format {
-        name: "csv",
-        write: |found, _, out| {
-            writeln!(out, "faces,t,meetings,met")?;
-            for ray in &found.rays {
-                let t = ray.t.map_or(String::new(), |t| format!("{t:?}"));
-                let FoundHit { meetings, met, .. } = ray;
-                writeln!(out, "{},{t},{meetings},{met}", joined(&ray.faces))?;
-            }
-            Ok(())
+impl FoundHits {
+    /// The formats: those of a page, and a line a ray.
+    pub const FORMATS: &'static [Format<FoundHits>] = &[
+        Format::TEXT,
+        Format::JSON,
+        Format::MARKDOWN,
+        Format::HTML,
+        Format {
+            name: "csv",
+            write: |found, _, out| {
+                writeln!(out, "faces,t,meetings,met")?;
+                for ray in &found.rays {
+                    let t = ray.t.map_or(String::new(), |t| format!("{t:?}"));
+                    let FoundHit { meetings, met, .. } = ray;
+                    writeln!(out, "{},{t},{meetings},{met}", joined(&ray.faces))?;
+                }
+                Ok(())
+            },
         },
-    },
-];
-
-/// Numbers of faces in one cell of a CSV.
-pub(super) fn joined(faces: &[u32]) -> String {
-    let words: Vec<String> = faces.iter().map(u32::to_string).collect();
-    words.join(" ")
+    ];
 }
 
 /// Answers all rays.
-pub(super) fn run<F: Scalar>(
-    arguments: &RaysArguments,
-    scene: &Scene<F>,
-    rays: &[Ray<F>],
-) -> Result<Status, Failure> {
-    let outputs = arguments.output.pairs(FORMATS)?;
-    let rays = of_all(arguments, rays.len(), |index| found(scene, &rays[index]))?;
-    let found = FoundHits {
+pub fn found<F: Scalar>(scene: &Scene<F>, rays: &[Ray<F>]) -> Result<FoundHits, BadRay> {
+    let rays = of_all(rays.len(), |index| found_by(scene, &rays[index]))?;
+    Ok(FoundHits {
         scalar: F::NAME.name(),
         rays,
-    };
-    arguments.output.write(outputs, &found)?;
-    Ok(Status::Success)
-}
-
-/// An answer about each ray, found on all threads; an error names the first ray that means nothing.
-pub(super) fn of_all<T: Send>(
-    arguments: &RaysArguments,
-    rays: usize,
-    of_ray: impl Fn(usize) -> Result<T, InvalidRay> + Sync,
-) -> Result<Vec<T>, Failure> {
-    let indices = (0..rays).into_par_iter();
-    let all: Result<Vec<T>, (usize, InvalidRay)> = indices
-        .map(|index| of_ray(index).map_err(|error| (index, error)))
-        .collect();
-    all.map_err(|(index, error)| {
-        let file = arguments.rays.as_deref().unwrap_or_default();
-        InputError::of(file, format!("ray {index}, counted from 0: {error}")).into()
     })
 }
 
-fn found<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>) -> Result<FoundHit, InvalidRay> {
+fn found_by<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>) -> Result<FoundHit, InvalidRay> {
     let Some(nearest) = scene.nearest(ray)? else {
         return Ok(FoundHit {
             faces: Vec::new(),

@@ -1,10 +1,6 @@
 //! Rays at a mesh, to ask a program about: at random, and at the places where programs err.
 
-use super::RaysArguments;
 use crate::case::Draw;
-use crate::cli::exit::{Failure, Status};
-use crate::cli::flags::unknown;
-use crate::files::InputError;
 use crate::files::mesh::Mesh;
 use crate::files::number;
 use crate::kernel::Scalar;
@@ -12,7 +8,7 @@ use crate::report::Format;
 use hairline_scene::Ray;
 use std::io::{self, Write};
 
-hairline_core::named! {
+named! {
     pub names
     /// Where rays are aimed.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +29,7 @@ hairline_core::named! {
 }
 
 /// Rays that were made.
-struct MadeRays<F>(Vec<Ray<F>>);
+pub struct MadeRays<F>(pub Vec<Ray<F>>);
 
 /// Origins are farther from the middle of the mesh than its box, by at most this factor.
 const AROUND: f64 = 3.0;
@@ -41,45 +37,9 @@ const AROUND: f64 = 3.0;
 /// Directions are multiples of this share of the mesh's size, so that few are rounded.
 const STEPS: i64 = 64;
 
-/// Writes so many rays of each kind in turn.
-pub(super) fn run<F: Scalar>(
-    arguments: &RaysArguments,
-    mesh: &Mesh,
-    count: u64,
-) -> Result<Status, Failure> {
-    let outputs = arguments.output.pairs(MadeRays::<F>::FORMATS)?;
-    let kinds = kinds(&arguments.kinds)?;
-    let targets = MeshTargets::<F>::new(mesh)?;
-    let rays = (0..count).map(|index| {
-        let kind = kinds[(index % kinds.len() as u64) as usize];
-        targets.ray(kind, arguments.seed, index)
-    });
-    arguments.output.write(outputs, &MadeRays(rays.collect()))?;
-    Ok(Status::Success)
-}
-
-/// The kinds of these names; all without names.
-fn kinds(names: &[String]) -> Result<Vec<RayKind>, Failure> {
-    if names.is_empty() {
-        return Ok(RayKind::ALL.to_vec());
-    }
-    let named = |name: &String| {
-        let kind = RayKind::ALL.into_iter().find(|kind| kind.name() == name);
-        kind.ok_or_else(|| {
-            unknown(
-                "kind of rays",
-                name,
-                RayKind::ALL.map(RayKind::name),
-                "hairline rays --help",
-            )
-        })
-    };
-    names.iter().map(named).collect()
-}
-
 impl<F: Scalar> MadeRays<F> {
     /// A line of six numbers a ray, below their names.
-    const FORMATS: &'static [Format<MadeRays<F>>] = &[Format {
+    pub const FORMATS: &'static [Format<MadeRays<F>>] = &[Format {
         name: "csv",
         write: |rays, _, out| rays.write(out),
     }];
@@ -96,7 +56,7 @@ impl<F: Scalar> MadeRays<F> {
 }
 
 /// A mesh that rays are aimed at.
-struct MeshTargets<F> {
+pub struct MeshTargets<F> {
     triangles: Vec<[[F; 3]; 3]>,
     /// The middle of its box.
     middle: [f64; 3],
@@ -105,7 +65,8 @@ struct MeshTargets<F> {
 }
 
 impl<F: Scalar> MeshTargets<F> {
-    fn new(mesh: &Mesh) -> Result<MeshTargets<F>, Failure> {
+    /// The triangles of a mesh. An error if they have no size, or are too large for rays around them.
+    pub fn new(mesh: &Mesh) -> Result<MeshTargets<F>, String> {
         let faces = 0..mesh.triangles.len();
         let triangles: Vec<[[F; 3]; 3]> = faces.map(|face| mesh.vertices(face)).collect();
         let mut low = [f64::INFINITY; 3];
@@ -119,8 +80,7 @@ impl<F: Scalar> MeshTargets<F> {
         let half = [0, 1, 2].map(|axis| high[axis] / 2.0 - low[axis] / 2.0);
         let half = half.into_iter().fold(0.0, f64::max);
         if half == 0.0 || triangles.is_empty() {
-            let message = "there is no face of a size to aim rays at";
-            return Err(InputError::of(&mesh.name, message).into());
+            return Err("there is no face of a size to aim rays at".to_owned());
         }
         let middle = [0, 1, 2].map(|axis| low[axis].midpoint(high[axis]));
         let farthest = middle
@@ -128,14 +88,25 @@ impl<F: Scalar> MeshTargets<F> {
             .fold(0.0, |most: f64, x| most.max(x.abs()));
         // Room for a direction from one side of it to the other.
         if !F::from_f64(2.0 * (farthest + AROUND * half)).is_finite() {
-            let message = format!("the mesh is too large for rays around it in {}", F::NAME);
-            return Err(InputError::of(&mesh.name, message).into());
+            return Err(format!(
+                "the mesh is too large for rays around it in {}",
+                F::NAME
+            ));
         }
         Ok(MeshTargets {
             triangles,
             middle,
             half,
         })
+    }
+
+    /// So many rays, one of each kind in turn.
+    pub fn rays(&self, kinds: &[RayKind], count: u64, seed: u64) -> Vec<Ray<F>> {
+        let ray = |index: u64| {
+            let kind = kinds[(index % kinds.len() as u64) as usize];
+            self.ray(kind, seed, index)
+        };
+        (0..count).map(ray).collect()
     }
 
     fn ray(&self, kind: RayKind, seed: u64, index: u64) -> Ray<F> {

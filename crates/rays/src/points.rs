@@ -1,19 +1,17 @@
 //! Points inside, outside or on a mesh.
 
-use super::RaysArguments;
-use crate::cli::exit::{Failure, Status};
-use crate::files::InputError;
+use crate::asked::{BadRay, of_all};
 use crate::kernel::Scalar;
 use crate::record::{group_digits, number_of};
 use crate::report::Format;
 use crate::report::page::{Block, Page, Paged};
-use hairline_scene::{InvalidRay, Location, OpenEdge, Scene, Winding};
-use rayon::prelude::*;
+use crate::single::joined;
+use hairline_scene::{Location, OpenEdge, Scene, Winding};
 use serde::Serialize;
 
 /// Where each point is.
 #[derive(Serialize)]
-struct LocatedPoints {
+pub struct LocatedPoints {
     scalar: &'static str,
     points: Vec<LocatedPoint>,
 }
@@ -31,55 +29,38 @@ struct LocatedPoint {
     open_at: Option<u32>,
 }
 
-/// The formats: those of a page, and a line a point.
-const FORMATS: &[Format<LocatedPoints>] = &[
-    Format::TEXT,
-    Format::JSON,
-    Format::MARKDOWN,
-    Format::HTML,
-    Format {
-        name: "csv",
-        write: |located, _, out| {
-            writeln!(out, "place,winding,faces")?;
-            for point in &located.points {
-                let winding = point.winding.map_or(String::new(), |it| it.to_string());
-                let faces = super::found::joined(&point.faces);
-                writeln!(out, "{},{winding},{faces}", point.place)?;
-            }
-            Ok(())
+impl LocatedPoints {
+    /// The formats: those of a page, and a line a point.
+    pub const FORMATS: &'static [Format<LocatedPoints>] = &[
+        Format::TEXT,
+        Format::JSON,
+        Format::MARKDOWN,
+        Format::HTML,
+        Format {
+            name: "csv",
+            write: |located, _, out| {
+                writeln!(out, "place,winding,faces")?;
+                for point in &located.points {
+                    let winding = point.winding.map_or(String::new(), |it| it.to_string());
+                    let faces = joined(&point.faces);
+                    writeln!(out, "{},{winding},{faces}", point.place)?;
+                }
+                Ok(())
+            },
         },
-    },
-];
-
-/// Locates all points.
-pub(super) fn run<F: Scalar>(
-    arguments: &RaysArguments,
-    scene: &Scene<F>,
-    points: &[[F; 3]],
-) -> Result<Status, Failure> {
-    let outputs = arguments.output.pairs(FORMATS)?;
-    let all: Result<Vec<LocatedPoint>, (usize, InvalidRay)> = points
-        .par_iter()
-        .enumerate()
-        .map(|(place, point)| {
-            let location = scene.locate(*point).map_err(|error| (place, error))?;
-            Ok(located(location))
-        })
-        .collect();
-    let points = all.map_err(|(place, _)| {
-        let file = arguments.points.as_deref().unwrap_or_default();
-        let message = format!("point {place} has a coordinate that is not finite");
-        Failure::from(InputError::of(file, message))
-    })?;
-    let located = LocatedPoints {
-        scalar: F::NAME.name(),
-        points,
-    };
-    arguments.output.write(outputs, &located)?;
-    Ok(Status::Success)
+    ];
 }
 
-fn located(location: Location) -> LocatedPoint {
+/// Locates all points.
+pub fn located<F: Scalar>(scene: &Scene<F>, points: &[[F; 3]]) -> Result<LocatedPoints, BadRay> {
+    let points = of_all(points.len(), |index| scene.locate(points[index]).map(told))?;
+    Ok(LocatedPoints {
+        scalar: F::NAME.name(),
+        points,
+    })
+}
+
+fn told(location: Location) -> LocatedPoint {
     let nowhere = LocatedPoint {
         place: "not defined",
         winding: None,

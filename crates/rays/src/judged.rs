@@ -1,0 +1,266 @@
+//! The answers of a program, judged and counted, with the worst of them.
+
+use crate::asked::{Answers, Asked, BadRay};
+use crate::blame::{LostHit, lost_hits};
+use crate::case::Case;
+use crate::corpus::lines::AnyCase;
+use crate::files::hex;
+use crate::kernel::Scalar;
+use crate::record::number_of;
+use crate::result::{JudgementCount, RaysResult, WrongAnswer, mesh_label, short};
+use crate::scalar::JudgedRun;
+use crate::single::explain_command;
+use hairline_scene::{Judged, Judgement, Ray};
+use hmac_sha256::Hash;
+
+/// How many wrong answers are told with their commands.
+const TOLD: usize = 3;
+
+/// The fewest wrong faces by which a shift of their numbers is known.
+const FEWEST: usize = 5;
+
+/// Judges answers, by the rays as they are, or with directions of length 1 if more are right then.
+pub fn judged<F: Scalar>(run: &JudgedRun<F>) -> Result<RaysResult, BadRay>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let as_written = counted(run)?;
+    let is_readable_otherwise = match run.answers {
+        Answers::Nearest(all) => all.iter().any(|answer| answer.t.is_some()),
+        _ => false,
+    };
+    if !is_readable_otherwise || as_written.right_count() == as_written.asked {
+        return Ok(as_written);
+    }
+    let rays = run.asked.rays().iter().map(with_unit_direction);
+    let Some(rays) = rays.collect() else {
+        return Ok(as_written);
+    };
+    let asked = Asked::Rays(rays);
+    let with_units = counted(&JudgedRun {
+        asked: &asked,
+        program: run.program.clone(),
+        ..*run
+    })?;
+    Ok(match as_written.right_count() < with_units.right_count() {
+        true => RaysResult {
+            has_unit_directions: true,
+            right_as_written: Some(as_written.right_count()),
+            cases: as_written.cases,
+            ..with_units
+        },
+        false => as_written,
+    })
+}
+
+/// The judgements in f64 if all are right there, or no fewer than in f32: most programs compute in one of the two, and name the
+/// exact face most often by the numbers that they have.
+pub fn more_right<E>(
+    in_f64: RaysResult,
+    in_f32: impl FnOnce() -> Result<RaysResult, E>,
+) -> RaysResult {
+    let right = in_f64.right_count();
+    if right == in_f64.asked {
+        return in_f64;
+    }
+    // Numbers that f32 does not hold are of a program that computes in f64.
+    let Ok(in_f32) = in_f32() else {
+        return in_f64;
+    };
+    match right < in_f32.right_count() {
+        true => RaysResult {
+            right_as_written: in_f64.right_as_written.or(Some(right)),
+            ..in_f32
+        },
+        false => in_f64,
+    }
+}
+
+/// The ray of a program that makes directions of length 1 first; none if floats do not hold it.
+fn with_unit_direction<F: Scalar>(ray: &Ray<F>) -> Option<Ray<F>> {
+    let [x, y, z] = ray.direction;
+    let length = (x * x + y * y + z * z).sqrt();
+    let direction = ray.direction.map(|component| component / length);
+    // Its square may over- or underflow.
+    let is_ray = length.is_finite() && direction.iter().all(|x| x.is_finite());
+    let on = [ray.t_min, ray.t_max].map(|t| t * length);
+    is_ray.then(|| Ray::new(ray.origin, direction).on(on[0], on[1]))
+}
+
+fn counted<F: Scalar>(run: &JudgedRun<F>) -> Result<RaysResult, BadRay>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let judged = run.asked.judged(run.scene, run.answers)?;
+    let lost: Vec<LostHit<F>> = run
+        .asked
+        .rays()
+        .iter()
+        .zip(&judged)
+        .filter(|(_, judged)| is_of_a_lost_hit(judged.judgement))
+        .filter_map(|(ray, judged)| {
+            let hit = judged.hit.as_ref()?;
+            Some(LostHit { ray, hit })
+        })
+        .collect();
+    Ok(RaysResult {
+        mesh: mesh_label(run.mesh),
+        cases: cases_label(run.asked),
+        program: run.program.clone(),
+        kind: run.answers.kind(),
+        scalar: F::NAME,
+        has_unit_directions: false,
+        asked: judged.len() as u64,
+        counts: Judgement::ALL
+            .into_iter()
+            .map(|kind| count(kind, &judged))
+            .collect(),
+        right_as_written: None,
+        shift: shift(run.answers, &judged),
+        lost: lost_hits(run.mesh, run.scene, &lost),
+        worst: worst(run, &judged),
+    })
+}
+
+/// True if the exact hit is missed, or another face is named in its place.
+fn is_of_a_lost_hit(judgement: Judgement) -> bool {
+    matches!(
+        judgement,
+        Judgement::Lost | Judgement::Farther | Judgement::Ghost | Judgement::TooFew
+    )
+}
+
+/// The number of the rays or points, and a digest of their numbers.
+fn cases_label<F: Scalar>(asked: &Asked<F>) -> String {
+    let count = asked.count() as u64;
+    let (name, numbers): (String, Vec<F>) = match asked {
+        Asked::Rays(rays) => {
+            let numbers = rays.iter().flat_map(|ray| {
+                let vectors = ray.origin.into_iter().chain(ray.direction);
+                vectors.chain([ray.t_min, ray.t_max])
+            });
+            (number_of(count, "ray", "rays"), numbers.collect())
+        }
+        Asked::Points(points) => {
+            let numbers = points.iter().flatten().copied();
+            (number_of(count, "point", "points"), numbers.collect())
+        }
+    };
+    let mut hash = Hash::new();
+    for number in numbers {
+        hash.update(number.to_f64().to_bits().to_le_bytes());
+    }
+    let digest = hex(&hash.finalize());
+    format!("{name}, {}", &digest[..8])
+}
+
+fn count(judgement: Judgement, judged: &[Judged]) -> JudgementCount {
+    let of_kind = judged.iter().filter(|it| it.judgement == judgement);
+    let mut off: Vec<f64> = of_kind
+        .clone()
+        .filter_map(|it| it.off.map(f64::abs))
+        .collect();
+    off.sort_by(f64::total_cmp);
+    JudgementCount {
+        judgement,
+        count: of_kind.count() as u64,
+        median_off: off.get(off.len() / 2).copied(),
+        most_off: off.last().copied(),
+    }
+}
+
+/// Some wrong answers: the farthest of each kind, and then the next ones.
+fn worst<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Vec<WrongAnswer>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let all = judged.iter().enumerate();
+    let mut wrong: Vec<(usize, &Judged)> = all.filter(|(_, it)| it.judgement.is_wrong()).collect();
+    let size = |judged: &Judged| judged.off.map_or(0.0, f64::abs);
+    wrong.sort_by(|(_, a), (_, b)| {
+        let by_kind = a.judgement.cmp(&b.judgement);
+        by_kind.then(size(b).total_cmp(&size(a)))
+    });
+    // One of each kind first.
+    let mut seen = Vec::new();
+    let (first, others): (Vec<_>, Vec<_>) = wrong.into_iter().partition(|(_, judged)| {
+        let is_first = !seen.contains(&judged.judgement);
+        seen.push(judged.judgement);
+        is_first
+    });
+    let all = first.into_iter().chain(others).take(TOLD);
+    all.map(|(index, judged)| told(run, index, judged))
+        .collect()
+}
+
+fn told<F: Scalar>(run: &JudgedRun<F>, index: usize, judged: &Judged) -> WrongAnswer
+where
+    Case<F>: Into<AnyCase>,
+{
+    let answer = run.answers.in_words(index);
+    let off = match judged.off {
+        Some(off) if run.answers.are_of_points() => {
+            format!(", {} longest edges from the surface", short(off))
+        }
+        Some(off) if off < 0.0 => format!(", {} longest edges in front of it", short(-off)),
+        Some(off) => format!(", {} longest edges behind it", short(off)),
+        None => String::new(),
+    };
+    let Some(ray) = run.asked.rays().get(index) else {
+        return WrongAnswer {
+            index: index as u64,
+            judgement: judged.judgement,
+            text: format!("point {index}: answered {answer}{off}"),
+            commands: Vec::new(),
+        };
+    };
+    let nearest = judged.hit.as_ref().map(|it| it.faces[0]);
+    let truth = match (nearest, run.answers) {
+        (None, Answers::All(_)) => "the faces that are met are others".to_owned(),
+        (None, _) => "no face is hit".to_owned(),
+        (Some(face), Answers::All(_)) => format!("face {face} is met too"),
+        (Some(face), _) => format!("the nearest is face {face}"),
+    };
+    let named = match run.answers {
+        Answers::Nearest(all) => all[index].face,
+        _ => None,
+    };
+    let shown = nearest.or(named);
+    let shown = shown.filter(|face| (*face as usize) < run.mesh.triangles.len());
+    WrongAnswer {
+        index: index as u64,
+        judgement: judged.judgement,
+        text: format!("ray {index}: {truth}; answered {answer}{off}"),
+        commands: shown
+            .map(|face| explain_command(run.mesh, ray, face))
+            .into_iter()
+            .collect(),
+    }
+}
+
+/// The shift of face numbers with which most wrong faces are right: of a program that counts from 1, for example.
+fn shift(answers: &Answers, judged: &[Judged]) -> Option<i64> {
+    let Answers::Nearest(answers) = answers else {
+        return None;
+    };
+    let mut wrong = Vec::new();
+    for (judged, answer) in judged.iter().zip(answers) {
+        if let (Some(hit), Some(face)) = (&judged.hit, answer.face)
+            && judged.judgement.is_wrong()
+        {
+            wrong.push((&hit.faces, face));
+        }
+    }
+    let makes_right = |shift: i64| {
+        let is_right = |face: u32, nearest: &[u32]| {
+            let shifted = u32::try_from(i64::from(face) + shift);
+            shifted.is_ok_and(|face| nearest.contains(&face))
+        };
+        let right = wrong
+            .iter()
+            .filter(|(nearest, face)| is_right(*face, nearest));
+        right.count()
+    };
+    let is_most = |shift: &i64| FEWEST <= wrong.len() && wrong.len() < 2 * makes_right(*shift);
+    [-1, 1].into_iter().find(is_most)
+}

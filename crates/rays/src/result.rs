@@ -1,0 +1,190 @@
+//! What became of a program's answers: the part of a record.
+
+use crate::arith::ScalarName;
+use crate::asked::AnswerKind;
+use crate::audit::Trials;
+use crate::files::mesh::Mesh;
+use crate::record::{Comparable, NamedRate, NamedValue, Rate, Study, group_digits, number_of};
+use crate::report::JunitCase;
+use hairline_core::printable::printable;
+use hairline_scene::Judgement;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The answers of a program about a mesh, judged.
+#[apply(part!)]
+pub struct RaysResult {
+    /// The mesh: its file, the number of its faces, and a digest.
+    pub mesh: String,
+    /// The rays or points: their number, and a digest.
+    pub cases: String,
+    /// The program, where hairline ran it: the kernel and its box test.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<String>,
+    /// The kind of answers: `nearest`, `any`, `all`, `count` or `inside`.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub kind: AnswerKind,
+    /// The scalar in which they are judged.
+    pub scalar: ScalarName,
+    /// True if directions are made of length 1 first, so that t is a length.
+    pub has_unit_directions: bool,
+    /// How many answers.
+    pub asked: u64,
+    /// An entry for each judgement, the worst first.
+    pub counts: Vec<JudgementCount>,
+    /// How many are right by the numbers as written, in f64, if another reading was chosen because more are right there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub right_as_written: Option<u64>,
+    /// The number that added to the faces of wrong answers makes most of them right, if one does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shift: Option<i64>,
+    /// The hits that are lost, and who loses them too.
+    pub lost: LostHits,
+    /// The worst answers.
+    pub worst: Vec<WrongAnswer>,
+}
+
+/// How often a judgement was made.
+#[apply(part!)]
+pub struct JudgementCount {
+    /// The judgement.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub judgement: Judgement,
+    /// How many answers.
+    pub count: u64,
+    /// The median distance from the exact hit, in longest edges of the face, where it is known.
+    pub median_off: Option<f64>,
+    /// The largest.
+    pub most_off: Option<f64>,
+}
+
+/// Exact hits that a program missed, or in place of which it named another face.
+#[apply(part!)]
+#[derive(Default)]
+pub struct LostHits {
+    /// How many.
+    pub count: u64,
+    /// How many of them lie at the start of the ray's interval, as near as anybody sees.
+    pub at_start: u64,
+    /// How many at its end.
+    pub at_end: u64,
+    /// How many each built-in kernel misses too, by itself, on all faces of the hit; the most first.
+    pub missed_by_kernels: Vec<MissCount>,
+    /// How many each built-in slab test misses too, on the boxes of all faces of the hit; the most first.
+    pub missed_by_box_tests: Vec<MissCount>,
+}
+
+/// How many hits a kernel or a slab test misses.
+#[apply(part!)]
+pub struct MissCount {
+    /// Its name.
+    pub name: String,
+    /// How many.
+    pub count: u64,
+}
+
+/// A wrong answer.
+#[apply(part!)]
+pub struct WrongAnswer {
+    /// The ray's or point's number, from 0.
+    pub index: u64,
+    /// Its judgement.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub judgement: Judgement,
+    /// The truth, the answer, and how far it is off.
+    pub text: String,
+    /// Commands that show it.
+    pub commands: Vec<String>,
+}
+
+impl RaysResult {
+    /// How many answers are wrong.
+    pub fn wrong_count(&self) -> u64 {
+        self.count_of(Judgement::is_wrong)
+    }
+
+    /// How many are exact, or one of several right ones.
+    pub fn right_count(&self) -> u64 {
+        self.count_of(Judgement::is_right)
+    }
+
+    fn count_of(&self, is_counted: impl Fn(Judgement) -> bool) -> u64 {
+        let counted = self.counts.iter().filter(|it| is_counted(it.judgement));
+        counted.map(|it| it.count).sum()
+    }
+}
+
+impl RaysResult {
+    /// As tests for JUnit, one a judgement that is wrong.
+    pub fn suites(&self) -> BTreeMap<String, BTreeMap<(String, String), JunitCase>> {
+        let wrong = self.counts.iter().filter(|it| it.judgement.is_wrong());
+        let test = |it: &JudgementCount| {
+            let place = format!("{}.{}", self.scalar, self.kind);
+            let case = match it.count {
+                0 => JunitCase::default(),
+                count => self.failed(it.judgement, count),
+            };
+            ((place, it.judgement.to_string()), case)
+        };
+        [(self.mesh.clone(), wrong.map(test).collect())].into()
+    }
+
+    fn failed(&self, judgement: Judgement, count: u64) -> JunitCase {
+        let of_kind = self.worst.iter().filter(|it| it.judgement == judgement);
+        let text: Vec<String> = of_kind
+            .flat_map(|it| [&it.text].into_iter().chain(&it.commands))
+            .cloned()
+            .collect();
+        let message = format!("{judgement}: {} of {}", group_digits(count), self.asked);
+        JunitCase {
+            failures: vec![(message, text.join("\n"))],
+            notes: Vec::new(),
+        }
+    }
+}
+
+impl Comparable for RaysResult {
+    const STUDY: Study = Study::Rays;
+
+    fn question(&self) -> String {
+        format!("{} of {}", self.kind, self.mesh)
+    }
+
+    fn cases(&self) -> String {
+        self.cases.clone()
+    }
+
+    fn counted(&self) -> Vec<NamedRate> {
+        let wrong = self.counts.iter().filter(|it| it.judgement.is_wrong());
+        let named = |it: &JudgementCount| NamedRate {
+            what: it.judgement.to_string(),
+            rate: Rate::new(Trials::independent(it.count, self.asked), false),
+            command: None,
+        };
+        wrong.map(named).collect()
+    }
+
+    fn chosen(&self) -> Vec<NamedValue> {
+        let scalar = NamedValue::chosen("judged in".to_owned(), self.scalar.name());
+        vec![scalar]
+    }
+}
+
+/// A mesh by the name of its file, the number of its faces and a digest.
+pub fn mesh_label(mesh: &Mesh) -> String {
+    let file = Path::new(&mesh.name).file_name().unwrap_or_default();
+    let file = printable(&file.to_string_lossy());
+    let faces = number_of(mesh.triangles.len() as u64, "face", "faces");
+    format!("{file} ({faces}, {})", &mesh.digest[..8])
+}
+
+/// A distance, for people.
+pub fn short(number: f64) -> String {
+    if number == 0.0 {
+        return "0".to_owned();
+    }
+    match (1e-3..1e6).contains(&number.abs()) {
+        true => format!("{number:.3}"),
+        false => format!("{number:.2e}"),
+    }
+}

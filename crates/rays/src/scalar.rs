@@ -1,0 +1,100 @@
+//! The doors of this crate, one a scalar: what takes long is compiled behind them, where code is optimised for speed.
+
+use crate::asked::{Answers, Asked, BadRay};
+use crate::case::Case;
+use crate::corpus::lines::AnyCase;
+use crate::files::mesh::Mesh;
+use crate::found::{self, FoundHits};
+use crate::judged;
+use crate::kernel::Scalar;
+use crate::one::{self, RayTold};
+use crate::plain::{self, PlainProgram};
+use crate::points::{self, LocatedPoints};
+use crate::result::RaysResult;
+use hairline_scene::{InvalidRay, MeshError, Ray, Scene};
+
+/// Rays or points at a mesh, with a program's answers.
+pub struct JudgedRun<'a, F: Scalar> {
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// The same as a scene.
+    pub scene: &'a Scene<F>,
+    /// What was asked.
+    pub asked: &'a Asked<F>,
+    /// As many answers.
+    pub answers: &'a Answers,
+    /// Who answered, if it is not a file of answers: the kernel with its box test.
+    pub program: Option<String>,
+}
+
+/// A scalar in which a mesh is asked about.
+pub trait RaysScalar: Scalar + Sized {
+    /// The triangles of a mesh as a scene.
+    fn scene(mesh: &Mesh) -> Result<Scene<Self>, MeshError>;
+
+    /// Everything that one ray meets.
+    fn told(mesh: &Mesh, scene: &Scene<Self>, ray: &Ray<Self>) -> Result<RayTold, InvalidRay>;
+
+    /// The nearest hits of rays.
+    fn found(scene: &Scene<Self>, rays: &[Ray<Self>]) -> Result<FoundHits, BadRay>;
+
+    /// The places of points.
+    fn located(scene: &Scene<Self>, points: &[[Self; 3]]) -> Result<LocatedPoints, BadRay>;
+
+    /// The nearest hits of rays as a plain program finds them. An error if it does not run in this scalar.
+    fn answered(program: &PlainProgram, mesh: &Mesh, rays: &[Ray<Self>])
+    -> Result<Answers, String>;
+
+    /// Answers, judged.
+    fn judged(run: &JudgedRun<Self>) -> Result<RaysResult, BadRay>;
+}
+
+macro_rules! implement {
+    ($scalar:ty) => {
+        impl RaysScalar for $scalar {
+            fn scene(mesh: &Mesh) -> Result<Scene<Self>, MeshError> {
+                scene_of(mesh)
+            }
+
+            fn told(
+                mesh: &Mesh,
+                scene: &Scene<Self>,
+                ray: &Ray<Self>,
+            ) -> Result<RayTold, InvalidRay> {
+                one::told(mesh, scene, ray)
+            }
+
+            fn found(scene: &Scene<Self>, rays: &[Ray<Self>]) -> Result<FoundHits, BadRay> {
+                found::found(scene, rays)
+            }
+
+            fn located(scene: &Scene<Self>, points: &[[Self; 3]]) -> Result<LocatedPoints, BadRay> {
+                points::located(scene, points)
+            }
+
+            fn answered(
+                program: &PlainProgram,
+                mesh: &Mesh,
+                rays: &[Ray<Self>],
+            ) -> Result<Answers, String> {
+                plain::answered(program, mesh, rays)
+            }
+
+            fn judged(run: &JudgedRun<Self>) -> Result<RaysResult, BadRay> {
+                judged::judged(run)
+            }
+        }
+    };
+}
+
+implement!(f32);
+implement!(f64);
+
+fn scene_of<F: Scalar>(mesh: &Mesh) -> Result<Scene<F>, MeshError>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let count = mesh.positions_f64.len() as u32;
+    let vertices: Vec<[F; 3]> = (0..count).map(|vertex| mesh.position(vertex)).collect();
+    Scene::new(&vertices, &mesh.triangles)
+}

@@ -1,0 +1,201 @@
+//! The answers of a program in a file: one a line in the order of the rays, or of all hits one hit a line.
+
+use super::read::{LONGEST_LINE, is_head, json_number, lines, words};
+use crate::cli::exit::Failure;
+use crate::cli::input::open;
+use crate::files::InputError;
+use crate::files::json::{self, Object};
+use crate::files::text_lines::TextLines;
+use hairline_rays::{AnswerKind, Answers};
+use hairline_scene::{Answer, NamedHit, NamedPlace};
+use std::io::BufReader;
+
+/// The words of programs for no face: a signed and an unsigned -1.
+const NO_FACE: [&str; 6] = ["-1", "4294967295", "none", "null", "miss", ""];
+
+/// The words for yes and for no.
+const YES: [&str; 3] = ["1", "true", "hit"];
+const NO: [&str; 3] = ["0", "false", "miss"];
+
+/// The answers of a file to so many rays or points, at a mesh of so many faces.
+pub(super) fn answers(
+    file: &str,
+    kind: AnswerKind,
+    asked: usize,
+    faces: usize,
+) -> Result<Answers, Failure> {
+    let rays = format!("{asked} rays");
+    let points = format!("{asked} points");
+    let answers = match kind {
+        AnswerKind::Nearest => {
+            let read = |line: &str| nearest(line, faces);
+            Answers::Nearest(one_a_line(file, asked, &rays, read)?)
+        }
+        AnswerKind::Any => Answers::Any(one_a_line(file, asked, &rays, any)?),
+        AnswerKind::All => Answers::All(all(file, asked, faces)?),
+        AnswerKind::Count => Answers::Count(one_a_line(file, asked, &rays, count)?),
+        AnswerKind::Inside => Answers::Inside(one_a_line(file, asked, &points, place)?),
+    };
+    Ok(answers)
+}
+
+fn one_a_line<T>(
+    file: &str,
+    asked: usize,
+    questions: &str,
+    read: impl Fn(&str) -> Result<T, String>,
+) -> Result<Vec<T>, Failure> {
+    let is_head = |line: &str| is_head(line) && read(line).is_err();
+    let answers = lines(file, "answers", is_head, &read)?;
+    if answers.len() != asked {
+        let message = format!(
+            "{} answers to {questions}: expected one a line, in their order",
+            answers.len()
+        );
+        return Err(InputError::of(file, message).into());
+    }
+    Ok(answers)
+}
+
+/// A face's number as a program wrote it. One more than there are is what a program says that counts from 1.
+fn face(word: &str, faces: usize) -> Result<u32, String> {
+    let face = word.parse().map_err(|_| {
+        format!(
+            "expected a face's number from 0, or -1 for a miss, found {}",
+            json::quoted(word)
+        )
+    })?;
+    match faces < face as usize {
+        true => Err(format!(
+            "face {face}, and the mesh has {faces}, counted from 0"
+        )),
+        false => Ok(face),
+    }
+}
+
+fn nearest(line: &str, faces: usize) -> Result<Answer, String> {
+    let answer = |word: &str, t: Option<&str>| {
+        if NO_FACE.contains(&word) {
+            return Ok(Answer {
+                face: None,
+                t: None,
+            });
+        }
+        Ok(Answer {
+            face: Some(face(word, faces)?),
+            t: t.filter(|t| !t.is_empty()).map(json_number).transpose()?,
+        })
+    };
+    if line.starts_with('{') {
+        let object = Object::parse(line, &["face", "t"])?;
+        let t = object.get("t").filter(|t| *t != "null");
+        return answer(object.get("face").unwrap_or("null"), t);
+    }
+    match words(line)[..] {
+        [face] => answer(face, None),
+        [face, t] => answer(face, Some(t)),
+        ref words => Err(format!(
+            "expected a face and its t, as 12,0.5, found {} words",
+            words.len()
+        )),
+    }
+}
+
+fn any(line: &str) -> Result<bool, String> {
+    let word = one_word(line, "hit")?;
+    match word.as_str() {
+        word if YES.contains(&word) => Ok(true),
+        word if NO.contains(&word) => Ok(false),
+        word => Err(format!(
+            "expected 1 for a hit or 0 for none, found {}",
+            json::quoted(word)
+        )),
+    }
+}
+
+fn count(line: &str) -> Result<u64, String> {
+    let word = one_word(line, "count")?;
+    let wrong = |_| format!("expected the number of hits, found {}", json::quoted(&word));
+    word.parse().map_err(wrong)
+}
+
+fn place(line: &str) -> Result<NamedPlace, String> {
+    let word = one_word(line, "place")?;
+    match word.as_str() {
+        "1" | "true" => Ok(NamedPlace::Inside),
+        "0" | "false" => Ok(NamedPlace::Outside),
+        word => NamedPlace::named(word).ok_or_else(|| {
+            format!(
+                "expected inside, outside or on, or 1 for inside and 0 for outside, found {}",
+                json::quoted(word)
+            )
+        }),
+    }
+}
+
+/// The one word of a line, or of its field.
+fn one_word(line: &str, field: &str) -> Result<String, String> {
+    if line.starts_with('{') {
+        let object = Object::parse(line, &[field])?;
+        let value = object.required(field)?;
+        return match value.starts_with('"') {
+            true => json::string(value),
+            false => Ok(value.to_owned()),
+        };
+    }
+    match words(line)[..] {
+        [word] => Ok(word.to_ascii_lowercase()),
+        ref words => Err(format!("expected one word, found {}", words.len())),
+    }
+}
+
+/// All hits: a line each, with the ray's number from 0, the face and its t if there is one; those of a ray in the program's order.
+fn all(file: &str, asked: usize, faces: usize) -> Result<Vec<Vec<NamedHit>>, Failure> {
+    let mut answers = vec![Vec::new(); asked];
+    let reader = BufReader::new(open(file)?);
+    for line in TextLines::new(reader, file, LONGEST_LINE) {
+        let (number, text) = line?;
+        let text = text.trim();
+        if text.starts_with('#') || number == 1 && is_head(text) {
+            continue;
+        }
+        let hit =
+            hit(text, asked, faces).map_err(|message| InputError::at(file, number, message))?;
+        answers[hit.ray].push(hit.named);
+    }
+    Ok(answers)
+}
+
+/// A hit with its ray.
+struct HitOfRay {
+    ray: usize,
+    named: NamedHit,
+}
+
+fn hit(line: &str, asked: usize, faces: usize) -> Result<HitOfRay, String> {
+    let found = |ray: &str, word: &str, t: Option<&str>| {
+        let ray = ray.parse().ok().filter(|ray| *ray < asked);
+        Ok(HitOfRay {
+            ray: ray.ok_or_else(|| {
+                format!("expected a ray's number, from 0 and below {asked}, first")
+            })?,
+            named: NamedHit {
+                face: face(word, faces)?,
+                t: t.filter(|t| !t.is_empty()).map(json_number).transpose()?,
+            },
+        })
+    };
+    if line.starts_with('{') {
+        let object = Object::parse(line, &["ray", "face", "t"])?;
+        let t = object.get("t").filter(|t| *t != "null");
+        return found(object.required("ray")?, object.required("face")?, t);
+    }
+    match words(line)[..] {
+        [ray, face] => found(ray, face, None),
+        [ray, face, t] => found(ray, face, Some(t)),
+        ref words => Err(format!(
+            "expected a ray, a face and its t, as 0,12,0.5, found {} words",
+            words.len()
+        )),
+    }
+}
