@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Whether the file is written.
+/// The flags that write the file.
 #[derive(Args)]
 pub struct Blessing {
     /// Write the file of known wrong answers: this run's are known from now on
@@ -32,9 +32,9 @@ pub struct KnownSubject {
     pub schema: &'static str,
     /// Its first line, for who opens it.
     pub about: &'static str,
-    /// What a count in it may be of that a run has not.
+    /// The things that a count in it may be of and a run has not.
     pub parts: &'static str,
-    /// What chooses the cases.
+    /// The flags that choose the cases.
     pub choice: &'static str,
 }
 

@@ -83,12 +83,12 @@ pub struct RaysArguments {
 /// Whose answers are judged, and what is known of them.
 #[derive(Args)]
 struct AnswerArguments {
-    /// What a program answered, one a line in the order of the rays: the nearest face's number from 0 (-1 for a miss), and its t
+    /// A program's answers, one a line in the order of the rays: the nearest face's number from 0 (-1 for a miss), and its t
     /// if there is one; or JSON with the fields face and t
     #[arg(long, value_name = "FILE", help_heading = ANSWERS)]
     answers: Option<String>,
 
-    /// What it answered instead: any (1 for a hit, 0 for none), all (every hit a line: ray, face, t), count (of hits), or
+    /// Answers of another kind: any (1 for a hit, 0 for none), all (every hit a line: ray, face, t), count (of hits), or
     /// inside (inside, outside or on; of --points) [default: nearest]
     #[arg(long, value_name = "KIND", requires = "answers", help_heading = ANSWERS)]
     answered: Option<String>,

@@ -227,12 +227,7 @@ fn other_answers_than_the_nearest_hit_are_judged_too() {
             "0,3\n",
             "ray 0: face 0 is met too; answered faces 3",
         ),
-        (
-            &points,
-            "inside",
-            "0\n0\n1\n",
-            " wrong side 1 0.088 0.088 ",
-        ),
+        (&points, "inside", "0\n0\n1\n", " wrong side 1 0.088 0.088 "),
         (
             &points,
             "inside",

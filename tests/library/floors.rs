@@ -26,13 +26,13 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 }
 
 /// The crates, the lowest first.
-const ROOMS: [Room; 17] = [
+const ROOMS: [Room; 18] = [
     // With the test whose margin is known before the ray: `exact`.
     room("crates/core/src", None, 85_700),
     room("crates/checker/src", Some("checker"), 31_000),
     room("crates/boxes/src", Some("boxes"), 31_700),
     // New with issue 62: where a ray meets a whole mesh; then instances, which matrices put into the world exactly.
-    room("crates/scene/src", Some("scene"), 24_000),
+    room("crates/scene/src", Some("scene"), 27_500),
     room("crates/files/src", Some("files"), 24_200),
     room("crates/cases/src", None, 45_900),
     room("crates/prove/src", Some("prove"), 65_410),
@@ -42,10 +42,12 @@ const ROOMS: [Room; 17] = [
     room("crates/plugin/src", Some("plugin"), 20_400),
     room("crates/record/src", Some("record"), 23_000),
     room("crates/report/src", Some("report"), 100_900),
+    // Of issue 62: answers of programs about whole meshes; most of it came out of src.
+    room("crates/rays/src", Some("rays"), 14_100),
     room("crates/expect/src", Some("expect"), 17_200),
     room("crates/vectors/src", Some("vectors"), 11_900),
     room("crates/repair/src", Some("repair"), 16_800),
-    room("src", None, 115_500),
+    room("src", None, 110_500),
 ];
 
 /// The crates' sources, the lowest first.

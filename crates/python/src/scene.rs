@@ -124,7 +124,7 @@ impl ExactScene {
             py.detach(|| {
                 of_all(&indexed, |(index, ray)| {
                     let judged = scene.judge(ray, &answer(*index))?;
-                    Ok((code_of(judged.judgement), judged.behind.unwrap_or(f64::NAN)))
+                    Ok((code_of(judged.judgement), judged.off.unwrap_or(f64::NAN)))
                 })
             })?
         });
@@ -226,7 +226,7 @@ fn nearest<F: Float>(scene: &Scene<F>, ray: &Ray<F>) -> Result<(i64, f64, u32), 
 
 fn code_of(judgement: Judgement) -> u8 {
     let place = JUDGEMENTS.iter().position(|(its, _)| *its == judgement);
-    place.expect("every judgement has a name") as u8
+    place.expect("every judgement of a nearest hit has a name") as u8
 }
 
 fn place_of(location: &Location) -> (i8, i64) {

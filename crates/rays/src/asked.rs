@@ -11,7 +11,7 @@ named! {
     pub enum AnswerKind {
         /// The nearest hit of a ray.
         Nearest = "nearest",
-        /// Whether there is any hit.
+        /// True if there is any hit.
         Any = "any",
         /// All hits, in order.
         All = "all",

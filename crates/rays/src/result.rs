@@ -1,4 +1,4 @@
-//! What became of a program's answers: the part of a record.
+//! Judged answers as a record has them, and what is compared of them.
 
 use crate::arith::ScalarName;
 use crate::asked::AnswerKind;

@@ -19,7 +19,7 @@ pub struct JudgedRun<'a, F: Scalar> {
     pub mesh: &'a Mesh,
     /// The same as a scene.
     pub scene: &'a Scene<F>,
-    /// What was asked.
+    /// The questions.
     pub asked: &'a Asked<F>,
     /// As many answers.
     pub answers: &'a Answers,

@@ -23,7 +23,7 @@ pub struct Answer {
     pub t: Option<f64>,
 }
 
-hairline_core::named! {
+named! {
     pub names
     /// The judgement of an answer, the worst first.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -95,15 +95,17 @@ impl Judged {
 impl<F: Float> Scene<F> {
     /// Judges the nearest hit that a program answered. An error if the ray means nothing.
     ///
-    /// A hit that a ray moved aside by less than any number misses need not be answered: a silhouette, or a wall along which the ray
-    /// runs.
+    /// An answer that is right for a ray beside this one, nearer than anybody sees, is a neighbour: that holds at silhouettes, and
+    /// along walls in which the ray runs.
     pub fn judge(&self, ray: &Ray<F>, answer: &Answer) -> Result<Judged, InvalidRay> {
         let judged = self.judge_strictly(ray, answer)?;
         let may_be_aside = matches!(judged.judgement, Judgement::Lost | Judgement::Farther);
-        match may_be_aside && self.is_right_aside(ray, answer)? {
-            true => Ok(Judged::new(Judgement::Neighbour, judged.hit, None)),
-            false => Ok(judged),
+        if may_be_aside && self.is_right_aside(ray, answer)? {
+            return Ok(Judged::new(Judgement::Neighbour, judged.hit, None));
         }
+        self.or_neighbour(ray, judged, |beside| {
+            Ok(self.judge_strictly(beside, answer)?.judgement)
+        })
     }
 
     fn judge_strictly(&self, ray: &Ray<F>, answer: &Answer) -> Result<Judged, InvalidRay> {

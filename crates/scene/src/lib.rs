@@ -36,6 +36,9 @@
 
 #![forbid(unsafe_code)]
 
+#[macro_use(named)]
+extern crate hairline_core;
+
 // From the ground up: each block uses only those above it.
 mod bounds;
 mod distance;

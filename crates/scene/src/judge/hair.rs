@@ -1,6 +1,6 @@
 //! How far an answer is off, in floats: these distances name a judgement and decide no hit.
 
-use super::{VISIBLE, length};
+use super::{Judged, Judgement, VISIBLE, length};
 use crate::bounds::Bounds;
 use crate::distance::{distance_to, longest_edge};
 use crate::ray::{InvalidRay, Ray};
@@ -11,7 +11,44 @@ use hairline_core::Float;
 /// Bounds of t that are nearer to each other, in longest edges, tell how far an answer is off.
 const TELLING: f64 = 1e-9;
 
+/// Rays are moved aside by this share of a hair, so that t stays right where the ray does not graze.
+const SHARE: f64 = 1.0 / 8.0;
+
+/// In so many directions.
+const WAYS: u32 = 16;
+
 impl<F: Float> Scene<F> {
+    /// A judgement, or that of a neighbour if the answer is right for a ray beside this one, nearer than anybody sees.
+    pub(super) fn or_neighbour(
+        &self,
+        ray: &Ray<F>,
+        judged: Judged,
+        judge: impl Fn(&Ray<F>) -> Result<Judgement, InvalidRay>,
+    ) -> Result<Judged, InvalidRay> {
+        let is_of_a_place = matches!(
+            judged.judgement,
+            Judgement::Lost
+                | Judgement::Farther
+                | Judgement::Ghost
+                | Judgement::TooFew
+                | Judgement::TooMany
+        );
+        let Some(hit) = judged.hit.as_ref().filter(|_| is_of_a_place) else {
+            return Ok(judged);
+        };
+        let distance = SHARE * VISIBLE * self.longest_edge_of(hit.faces[0]);
+        for way in 0..WAYS {
+            let angle = f64::from(way) * std::f64::consts::TAU / f64::from(WAYS);
+            let beside = moved(ray, distance, angle);
+            // Far from 0 it may be the ray itself, and at the end of the range no ray at all.
+            let is_ray = beside.checked().is_ok();
+            if is_ray && judge(&beside)?.is_right() {
+                return Ok(Judged::new(Judgement::Neighbour, judged.hit, None));
+            }
+        }
+        Ok(judged)
+    }
+
     /// True if the point at which a ray meets a face's plane is nearer to the face than anybody sees, on the interval and at
     /// `latest` at the most; at t, if it is given.
     pub(super) fn is_missed_by_a_hair(
@@ -108,5 +145,17 @@ impl<F: Float> Scene<F> {
     pub(super) fn passes_by_a_hair(&self, ray: &Ray<F>) -> bool {
         let mut faces = (0..self.face_count()).map(|place| self.face_at(place));
         faces.any(|face| self.is_missed_by_a_hair(ray, face, None, f64::INFINITY))
+    }
+}
+
+/// The ray, moved aside.
+fn moved<F: Float>(ray: &Ray<F>, distance: f64, angle: f64) -> Ray<F> {
+    let direction = DVec3::from(ray.direction.map(F::to_f64));
+    let (one, other) = direction.normalize_or(DVec3::X).any_orthonormal_pair();
+    let step = distance * (angle.cos() * one + angle.sin() * other);
+    let origin = DVec3::from(ray.origin.map(F::to_f64)) + step;
+    Ray {
+        origin: origin.to_array().map(F::from_f64),
+        ..*ray
     }
 }

@@ -37,6 +37,13 @@ impl<F: Float> Scene<F> {
     /// Judges all hits that a program named, in its order. Every point has to be named once at least, by one of the faces that are
     /// met there; which of them, and how many, is a program's own way. An error if the ray means nothing.
     pub fn judge_hits(&self, ray: &Ray<F>, named: &[NamedHit]) -> Result<Judged, InvalidRay> {
+        let judged = self.judge_hits_strictly(ray, named)?;
+        self.or_neighbour(ray, judged, |beside| {
+            Ok(self.judge_hits_strictly(beside, named)?.judgement)
+        })
+    }
+
+    fn judge_hits_strictly(&self, ray: &Ray<F>, named: &[NamedHit]) -> Result<Judged, InvalidRay> {
         let passages = self.passages(ray)?;
         let hits = self.hits(ray)?;
         let mut there = vec![NamedThere::default(); passages.len()];
@@ -136,25 +143,35 @@ impl<F: Float> Scene<F> {
             false if self.passages(ray)?.iter().all(|it| it.is_silhouette) => Judgement::Neighbour,
             false => Judgement::Lost,
         };
-        Ok(Judged::new(judgement, Some(nearest), None))
+        let judged = Judged::new(judgement, Some(nearest), None);
+        self.or_neighbour(ray, judged, |beside| {
+            Ok(match self.nearest(beside)? {
+                None => Judgement::Right,
+                Some(_) => Judgement::Lost,
+            })
+        })
     }
 
     /// Judges the number of hits that a program counted: of points, or of faces, where one of two at an edge counts too. Silhouettes
     /// may be left out. An error if the ray means nothing.
     pub fn judge_count(&self, ray: &Ray<F>, count: u64) -> Result<Judged, InvalidRay> {
+        let judged = Judged::new(self.of_count(ray, count)?, self.nearest(ray)?, None);
+        self.or_neighbour(ray, judged, |beside| self.of_count(beside, count))
+    }
+
+    fn of_count(&self, ray: &Ray<F>, count: u64) -> Result<Judgement, InvalidRay> {
         let passages = self.passages(ray)?;
         let points = passages.len() as u64;
         let seen = passages.iter().filter(|it| !it.is_silhouette).count() as u64;
         let hits = self.hits(ray)?;
         let faces: u64 = hits.iter().map(|hit| hit.faces.len() as u64).sum();
-        let judgement = match count {
+        Ok(match count {
             _ if count == points => Judgement::Right,
             _ if count == faces => Judgement::Tie,
             _ if count < seen => Judgement::TooFew,
             _ if count < points => Judgement::Neighbour,
             _ => Judgement::TooMany,
-        };
-        Ok(Judged::new(judgement, self.nearest(ray)?, None))
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::ray::InvalidRay;
 use crate::scene::Scene;
 use hairline_core::Float;
 
-hairline_core::named! {
+named! {
     pub names
     /// The place of a point, as a program named it.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
