@@ -1,7 +1,7 @@
 //! The answers of a program, judged and counted, with the worst of them.
 
 use crate::asked::{Answers, Asked, BadRay};
-use crate::blame::{LostHit, lost_hits};
+use crate::blame::{HitOfRay, lost_hits};
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
 use crate::files::hex;
@@ -16,7 +16,7 @@ use hmac_sha256::Hash;
 /// How many wrong answers are told with their commands.
 const TOLD: usize = 3;
 
-/// The fewest wrong faces by which a shift of their numbers is known.
+/// The fewest faces by which a shift of their numbers is known.
 const FEWEST: usize = 5;
 
 /// Judges answers, by the rays as they are, or with directions of length 1 if more are right then.
@@ -25,11 +25,8 @@ where
     Case<F>: Into<AnyCase>,
 {
     let as_written = counted(run)?;
-    let is_readable_otherwise = match run.answers {
-        Answers::Nearest(all) => all.iter().any(|answer| answer.t.is_some()),
-        _ => false,
-    };
-    if !is_readable_otherwise || as_written.right_count() == as_written.asked {
+    let wrong_t = as_written.count(Judgement::WrongT);
+    if wrong_t == 0 {
         return Ok(as_written);
     }
     let rays = run.asked.rays().iter().map(with_unit_direction);
@@ -42,7 +39,10 @@ where
         program: run.program.clone(),
         ..*run
     })?;
-    Ok(match as_written.right_count() < with_units.right_count() {
+    // A program that loses rays at edges is right more often by any rays that are rounded: t has to be better too.
+    let is_better = as_written.right_count() < with_units.right_count()
+        && 2 * with_units.count(Judgement::WrongT) < wrong_t;
+    Ok(match is_better {
         true => RaysResult {
             has_unit_directions: true,
             right_as_written: Some(as_written.right_count()),
@@ -92,17 +92,8 @@ where
     Case<F>: Into<AnyCase>,
 {
     let judged = run.asked.judged(run.scene, run.answers)?;
-    let lost: Vec<LostHit<F>> = run
-        .asked
-        .rays()
-        .iter()
-        .zip(&judged)
-        .filter(|(_, judged)| is_of_a_lost_hit(judged.judgement))
-        .filter_map(|(ray, judged)| {
-            let hit = judged.hit.as_ref()?;
-            Some(LostHit { ray, hit })
-        })
-        .collect();
+    let lost = hits_of(run, &judged, is_of_a_lost_hit);
+    let found = hits_of(run, &judged, Judgement::is_right);
     Ok(RaysResult {
         mesh: mesh_label(run.mesh),
         cases: cases_label(run.asked),
@@ -113,13 +104,28 @@ where
         asked: judged.len() as u64,
         counts: Judgement::ALL
             .into_iter()
-            .map(|kind| count(kind, &judged))
+            .map(|kind| counted_as(kind, &judged))
             .collect(),
         right_as_written: None,
         shift: shift(run.answers, &judged),
-        lost: lost_hits(run.mesh, run.scene, &lost),
+        lost: lost_hits(run.mesh, run.scene, &lost, &found),
         worst: worst(run, &judged),
     })
+}
+
+/// The exact hits of rays whose answers have a judgement.
+fn hits_of<'a, F: Scalar>(
+    run: &'a JudgedRun<F>,
+    judged: &'a [Judged],
+    is_meant: impl Fn(Judgement) -> bool,
+) -> Vec<HitOfRay<'a, F>> {
+    let mut hits = Vec::new();
+    for (ray, judged) in run.asked.rays().iter().zip(judged) {
+        if let Some(hit) = judged.hit.as_ref().filter(|_| is_meant(judged.judgement)) {
+            hits.push(HitOfRay { ray, hit });
+        }
+    }
+    hits
 }
 
 /// True if the exact hit is missed, or another face is named in its place.
@@ -154,7 +160,7 @@ fn cases_label<F: Scalar>(asked: &Asked<F>) -> String {
     format!("{name}, {}", &digest[..8])
 }
 
-fn count(judgement: Judgement, judged: &[Judged]) -> JudgementCount {
+fn counted_as(judgement: Judgement, judged: &[Judged]) -> JudgementCount {
     let of_kind = judged.iter().filter(|it| it.judgement == judgement);
     let mut off: Vec<f64> = of_kind
         .clone()
@@ -238,29 +244,32 @@ where
     }
 }
 
-/// The shift of face numbers with which most wrong faces are right: of a program that counts from 1, for example.
+/// The shift of face numbers with which most faces are right, and more than without: of a program that counts from 1, for
+/// example.
 fn shift(answers: &Answers, judged: &[Judged]) -> Option<i64> {
     let Answers::Nearest(answers) = answers else {
         return None;
     };
-    let mut wrong = Vec::new();
+    let mut named = Vec::new();
     for (judged, answer) in judged.iter().zip(answers) {
-        if let (Some(hit), Some(face)) = (&judged.hit, answer.face)
-            && judged.judgement.is_wrong()
-        {
-            wrong.push((&hit.faces, face));
+        if let (Some(hit), Some(face)) = (&judged.hit, answer.face) {
+            named.push((&hit.faces, face));
         }
     }
-    let makes_right = |shift: i64| {
+    let right = |shift: i64| {
         let is_right = |face: u32, nearest: &[u32]| {
             let shifted = u32::try_from(i64::from(face) + shift);
             shifted.is_ok_and(|face| nearest.contains(&face))
         };
-        let right = wrong
+        let right = named
             .iter()
             .filter(|(nearest, face)| is_right(*face, nearest));
         right.count()
     };
-    let is_most = |shift: &i64| FEWEST <= wrong.len() && wrong.len() < 2 * makes_right(*shift);
+    let as_written = right(0);
+    let is_most = |shift: &i64| {
+        let shifted = right(*shift);
+        as_written + FEWEST <= shifted && named.len() < 2 * shifted
+    };
     [-1, 1].into_iter().find(is_most)
 }

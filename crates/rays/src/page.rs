@@ -145,45 +145,49 @@ impl LostHits {
                 );
             }
         }
-        let by_kernels = self.missed_by_kernels.first().map_or(0, |it| it.count);
-        let by_boxes = self.missed_by_box_tests.first().map_or(0, |it| it.count);
+        let explained = |all: &[MissCount]| all.first().map_or(0, |it| it.explained) as f64;
+        let by_kernels = explained(&self.missed_by_kernels);
+        let by_boxes = explained(&self.missed_by_box_tests);
         let kernels = named(&self.missed_by_kernels);
         let box_tests = named(&self.missed_by_box_tests);
+        let half = self.count as f64 / 2.0;
+        if enough <= by_kernels && by_boxes <= by_kernels {
+            return format!(
+                "{start} The triangle test loses them: built-in kernels alone miss these on their faces, and hardly any other ({kernels})."
+            );
+        }
+        // The boxes above those of the faces lose rays too.
+        if half <= by_boxes && by_kernels < by_boxes {
+            return format!(
+                "{start} The box test loses them: built-in slab tests miss the boxes around their faces, far more often than those of faces \
+                 that are found ({box_tests})."
+            );
+        }
         let places =
             "a tree, a box, a transform, an end of the interval, or how faces are numbered";
-        if enough <= by_kernels as f64 {
-            return format!(
-                "{start} The triangle test loses them: a built-in kernel alone misses nearly all of them too ({kernels})."
-            );
-        }
-        if enough <= by_boxes as f64 {
-            return format!(
-                "{start} The box test loses them: a built-in slab test misses nearly all of the boxes around their faces \
-                 ({box_tests})."
-            );
-        }
-        match (by_kernels, by_boxes) {
-            (0, 0) => format!(
-                "{start} No built-in kernel alone misses one of them on its face, and no slab test on its box, so look at {places}."
+        match (kernels.is_empty(), box_tests.is_empty()) {
+            (true, true) => format!(
+                "{start} No built-in kernel and no slab test misses just these, so look at {places}."
             ),
-            (0, _) => format!(
-                "{start} Built-in slab tests miss the boxes around so many of their faces: {box_tests}. For the others look at {places}."
+            (false, true) => format!(
+                "{start} Built-in kernels alone explain so many of them: {kernels}. For the others look at {places}."
             ),
-            (_, 0) => format!(
-                "{start} A built-in kernel alone misses so many of them: {kernels}. For the others look at {places}."
+            (true, false) => format!(
+                "{start} Built-in slab tests explain so many of them: {box_tests}. For the others look at {places}."
             ),
-            (_, _) => format!(
-                "{start} A built-in kernel alone misses so many of them: {kernels}; a slab test, on the boxes around the faces: \
+            (false, false) => format!(
+                "{start} Built-in kernels alone explain so many of them: {kernels}; slab tests, on the boxes around the faces: \
                  {box_tests}. For the others look at {places}."
             ),
         }
     }
 }
 
+/// The tests that explain most, with how many hits.
 fn named(all: &[MissCount]) -> String {
     let named = all.iter().take(NAMED);
     let words: Vec<String> = named
-        .map(|it| format!("{} {}", it.name, group_digits(it.count)))
+        .map(|it| format!("{} {}", it.name, group_digits(it.explained)))
         .collect();
     words.join(", ")
 }

@@ -68,9 +68,9 @@ pub struct LostHits {
     pub at_start: u64,
     /// How many at its end.
     pub at_end: u64,
-    /// How many each built-in kernel misses too, by itself, on all faces of the hit; the most first.
+    /// The built-in kernels that miss some of them too, by themselves, on all faces of the hit: those first that explain most.
     pub missed_by_kernels: Vec<MissCount>,
-    /// How many each built-in slab test misses too, on the boxes of all faces of the hit; the most first.
+    /// The built-in slab tests that miss some of them too, on the boxes of all faces of the hit: those first that explain most.
     pub missed_by_box_tests: Vec<MissCount>,
 }
 
@@ -79,8 +79,13 @@ pub struct LostHits {
 pub struct MissCount {
     /// Its name.
     pub name: String,
-    /// How many.
+    /// How many of the hits that the program lost.
     pub count: u64,
+    /// About how many of those that the program found.
+    pub of_found: u64,
+    /// So many of the lost hits does it explain: those that it misses, less what it would miss of others and the program found. A
+    /// program has larger boxes than those of single faces, so of slab tests less the share that they miss of found hits.
+    pub explained: u64,
 }
 
 /// A wrong answer.
@@ -106,6 +111,11 @@ impl RaysResult {
     /// How many are exact, or one of several right ones.
     pub fn right_count(&self) -> u64 {
         self.count_of(Judgement::is_right)
+    }
+
+    /// How many have a judgement.
+    pub fn count(&self, judgement: Judgement) -> u64 {
+        self.count_of(|it| it == judgement)
     }
 
     fn count_of(&self, is_counted: impl Fn(Judgement) -> bool) -> u64 {

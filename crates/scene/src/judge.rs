@@ -157,8 +157,10 @@ impl<F: Float> Scene<F> {
         // Without a number t is NaN, infinite, or as far as that.
         let is_visible = behind.is_none_or(|behind| VISIBLE < behind.abs());
         Ok(match is_visible {
-            true => (Judgement::WrongT, behind),
             false => (right, behind),
+            // A ray in the face's plane has other points of the face.
+            true if self.is_at(ray, nearest.faces[0], Some(t))? => (Judgement::Neighbour, behind),
+            true => (Judgement::WrongT, behind),
         })
     }
 

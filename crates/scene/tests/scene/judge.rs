@@ -132,6 +132,15 @@ fn t_is_told_from_the_first_point_of_a_segment() {
 }
 
 #[test]
+fn a_ray_in_the_plane_of_a_face_meets_it_all_the_way() {
+    // Along face 0 from t = 1 to 2, and into nothing.
+    let ray = Ray::new([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+    assert_eq!(judged(&ray, Some(0), Some(1.0)).0, Judgement::Tie);
+    assert_eq!(judged(&ray, Some(0), Some(1.5)).0, Judgement::Neighbour);
+    assert_eq!(judged(&ray, Some(0), Some(2.5)).0, Judgement::WrongT);
+}
+
+#[test]
 fn a_face_just_behind_the_nearest_one_is_a_neighbour() {
     // A fold: below its ridge a ray meets both sides, the second one later by twice its depth.
     let vertices = [
