@@ -17,10 +17,10 @@ use crate::record::{Context, Record, provenance_of};
 use crate::report::{Format, write_junit};
 use clap::Args;
 use hairline_rays::{
-    AnswerKind, Answers, Asked, BadRay, FoundHits, JudgedRun, LocatedPoints, MadeRays, MeshTargets,
-    RayKind, RaysResult, RaysScalar, more_right,
+    AnswerKind, Answers, Asked, BadRay, FoundHits, JudgedRun, LocatedPoints, MadeRays, RaysResult,
+    RaysScalar, more_right,
 };
-use hairline_scene::{Ray, Scene};
+use hairline_scene::{NoTargets, Ray, RayKind, Scene, Targets};
 use program::ProgramArguments;
 use std::time::Instant;
 
@@ -340,8 +340,15 @@ impl RaysRun<'_> {
 
     fn made<F: RaysScalar>(&self, count: u64) -> Result<Vec<Ray<F>>, Failure> {
         let kinds = kinds(&self.arguments.kinds)?;
-        let targets = MeshTargets::<F>::new(self.mesh)
-            .map_err(|message| InputError::of(&self.mesh.name, message))?;
+        let faces = 0..self.mesh.triangles.len();
+        let triangles = faces.map(|face| self.mesh.vertices(face)).collect();
+        let targets = Targets::<F>::new(triangles).map_err(|error| {
+            let of_scalar = match error {
+                NoTargets::TooLarge => format!(" in {}", F::NAME),
+                NoTargets::NoSize => String::new(),
+            };
+            InputError::of(&self.mesh.name, format!("{error}{of_scalar}"))
+        })?;
         Ok(targets.rays(&kinds, count, self.arguments.seed))
     }
 

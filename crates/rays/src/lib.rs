@@ -38,7 +38,7 @@ mod scalar;
 pub use asked::{AnswerKind, Answers, Asked, BadRay};
 pub use found::FoundHits;
 pub use judged::more_right;
-pub use made::{MadeRays, MeshTargets, RayKind};
+pub use made::MadeRays;
 pub use one::RayTold;
 pub use plain::PlainProgram;
 pub use points::LocatedPoints;

@@ -75,8 +75,13 @@ mod values;
 
 mod judge;
 
+mod aimed;
+mod conforms;
+
+pub use aimed::{NoTargets, RayKind, Targets};
 pub use bounds::Bounds;
 pub use closed::Closed;
+pub use conforms::{WrongAnswer, WrongAnswers};
 pub use define::{DefinedHit, define, define_instances, nearest_of};
 pub use hairline_core::case::Matrix;
 pub use instance::{Instance, InstanceError, PlacedFace, WrongInstance};

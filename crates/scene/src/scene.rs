@@ -176,6 +176,14 @@ impl<F: Float> Scene<F> {
         place.filter(|place| *place != NO_PLACE)
     }
 
+    /// The finite triangles in the order of their faces.
+    pub(crate) fn in_order_of_faces(&self) -> Vec<Triangle<F>> {
+        let places = self.places.iter().filter(|place| **place != NO_PLACE);
+        places
+            .map(|place| self.triangles[*place as usize])
+            .collect()
+    }
+
     /// How many faces are finite: their places are the numbers below.
     pub(crate) fn face_count(&self) -> u32 {
         self.faces.len() as u32

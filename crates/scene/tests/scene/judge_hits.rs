@@ -194,6 +194,39 @@ fn a_hit_where_nothing_is_may_be_near_something() {
 }
 
 #[test]
+fn a_program_conforms_or_its_worst_answer_is_told() {
+    let scene = cubes(&[[0.0; 3], [3.0, 0.25, -1.0]]);
+    let exact = |ray: &Ray<f64>| Answer {
+        face: scene.nearest(ray).unwrap().map(|nearest| nearest.faces[0]),
+        t: None,
+    };
+    assert!(scene.conforms(3000, 1, exact).is_ok());
+    // At edges and vertices it looks through the wall.
+    let leaky = |ray: &Ray<f64>| {
+        let hits = scene.hits(ray).unwrap();
+        let inside = hits.iter().find(|hit| hit.faces.len() == 1);
+        Answer {
+            face: inside.map(|hit| hit.faces[0]),
+            t: None,
+        }
+    };
+    let wrong = scene.conforms(3000, 1, leaky).unwrap_err();
+    assert!(50 < wrong.count && wrong.count < 1500, "{}", wrong.count);
+    let worst = &wrong.worst;
+    let again = scene.judge(&worst.ray, &worst.answer).unwrap();
+    assert_eq!(again, worst.judged);
+    assert_eq!(worst.judged.judgement, Judgement::Lost);
+    let said = wrong.to_string();
+    assert!(
+        said.starts_with(&format!(
+            "{} of 3000 answers are wrong; the worst (lost)",
+            wrong.count
+        )),
+        "{said}"
+    );
+}
+
+#[test]
 fn places_of_points_are_judged() {
     let place = |point: [f64; 3], named: NamedPlace| cube().judge_place(point, named).unwrap();
     let inside = [0.5, 0.5, 0.875];
