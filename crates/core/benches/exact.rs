@@ -12,7 +12,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 /// Tests of a batch: as many as fit into the caches.
-const COUNT: usize = 4096;
+const COUNT: usize = 1024;
 
 /// Published kernels to compare with.
 const PUBLISHED: [&str; 4] = [

@@ -90,9 +90,14 @@ impl<F: Float, N: Number + From<F>> PreparedTriangle<F, N> {
         if !(is_between && is_hit) {
             return None;
         }
-        let values = exact_values(&case, &truth);
-        let rounded = [values.t, values.u, values.v]
-            .map(|x| x.and_then(|x| x.to_f64()).expect("of a crossing"));
+        let rounded = match self.values_near(ray) {
+            Some(values) => values.map(Float::to_f64),
+            None => {
+                let values = exact_values(&case, &truth);
+                [values.t, values.u, values.v]
+                    .map(|x| x.and_then(|x| x.to_f64()).expect("of a crossing"))
+            }
+        };
         let most = F::infinity().offset_ulps(-1);
         let ends = [t_min, t_max].map(|end| clamped(end, -most, most));
         let is_front = crossing.facing == Facing::Front;

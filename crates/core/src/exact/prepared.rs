@@ -147,6 +147,14 @@ impl<F: Float, N: Number + From<F>> PreparedTriangle<F, N> {
         }
     }
 
+    /// t, u and v as computed, if they are as near to the exact ones as those of a hit that needs no exact arithmetic.
+    pub(super) fn values_near(&self, ray: &PreparedRay<F, N>) -> Option<[N; 3]> {
+        let Numbers { s, u, v, det, .. } = self.numbers(ray);
+        let inverse = N::one() / det;
+        let is_near = det.abs() * N::SHARE > self.margin(ray);
+        is_near.then(|| [dot(s, self.normal), u, v].map(|x| x * inverse))
+    }
+
     /// The undivided numbers of a ray and this triangle.
     #[inline(always)]
     pub(super) fn numbers(&self, ray: &PreparedRay<F, N>) -> Numbers<N> {
