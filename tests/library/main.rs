@@ -8,6 +8,7 @@ mod contradictions;
 mod derived;
 mod drawing;
 mod drawn;
+mod exact;
 mod expectations;
 mod facts;
 mod families;
