@@ -1,7 +1,7 @@
 /* hairline_exact.h: does a ray hit a triangle? The right answer for every finite float and double.
  *
- * One file without dependencies, in C99, C++17 and CUDA. Plain arithmetic decides where it provably can; integers decide the
- * rest.
+ * One file without dependencies, in C99, C++17 and CUDA. Plain arithmetic decides where it provably can. The signs that it leaves open
+ * are those of sums of doubles that are not rounded; integers decide what else is left.
  *
  * HAIRLINE_ONLY_F32, defined before you include this file, leaves hairline_exact_f64 out: then the integers are short, and 4 KB of
  * stack are enough instead of 23.
@@ -90,6 +90,25 @@ HAIRLINE_FUNCTION double hairline_difference_f64(double x, double y) {
 }
 #endif
 #endif
+
+/* x as it is stored: no compiler knows any more that it was a product. */
+HAIRLINE_FUNCTION double hx_stored(double x) {
+#ifdef __CUDA_ARCH__
+    return __dmul_rn(x, 1);
+#else
+    HAIRLINE_BARRIER(double, x);
+    return x;
+#endif
+}
+
+/* x * y, rounded before it is added to anything. */
+HAIRLINE_FUNCTION double hx_product(double x, double y) {
+#ifdef __CUDA_ARCH__
+    return __dmul_rn(x, y);
+#else
+    return hx_stored(x * y);
+#endif
+}
 
 /* A hit: t along the direction, u and v the weights of b and c, and whether the front was hit (a, b, c counter-clockwise as
  * the ray sees them). hit is 1. asked is 1 if integers were needed. */
@@ -331,6 +350,143 @@ HAIRLINE_FUNCTION void hx_exact(double points[4][3], const double d[3], double t
     answer->v = hx_within(hx_quotient(&edges[2], &det, 0), 0, 1 - answer->u);
 }
 
+/* ---- sums of doubles that are not rounded (Shewchuk 1997) ---- */
+
+/* The terms of a sum, from the least: none is 0, and no two have a bit in common, so the last one has the sign. An edge's number is 6
+ * products of three numbers, two of which are two doubles each; a product of three doubles is four. */
+#define HX_TERMS 96
+
+typedef struct {
+    int n;
+    double terms[HX_TERMS];
+} hx_sum;
+
+/* The rounded sum, and what is missing (Knuth). */
+HAIRLINE_FUNCTION double hx_two_sum(double x, double y, double *rest) {
+    double sum = x + y, of_y = sum - x, of_x = sum - of_y;
+    *rest = (x - of_x) + (y - of_y);
+    return sum;
+}
+
+/* The upper half of the digits of x (Veltkamp). */
+HAIRLINE_FUNCTION double hx_upper(double x) {
+    double large = hx_product(0x8000001p0, x);
+    return large - (large - x);
+}
+
+/* The rounded product, and what is missing (Dekker). */
+HAIRLINE_FUNCTION double hx_two_product(double x, double y, double *rest) {
+    double product = hx_product(x, y);
+#if defined(__CUDA_ARCH__) || defined(FP_FAST_FMA)
+    *rest = fma(x, y, -product);
+#else
+    double x_upper = hx_upper(x), x_lower = x - x_upper, y_upper = hx_upper(y), y_lower = y - y_upper;
+    *rest = x_upper * y_upper - product;
+    *rest += x_upper * y_lower;
+    *rest += x_lower * y_upper;
+    *rest += x_lower * y_lower;
+#endif
+    return product;
+}
+
+HAIRLINE_FUNCTION void hx_add_double(hx_sum *sum, double x) {
+    int i, n = 0;
+    for (i = 0; i < sum->n; i++) {
+        double rest;
+        x = hx_two_sum(x, sum->terms[i], &rest);
+        if (rest != 0) sum->terms[n++] = rest;
+    }
+    if (x != 0) sum->terms[n++] = x;
+    sum->n = n;
+}
+
+HAIRLINE_FUNCTION void hx_add_product(hx_sum *sum, double x, double y) {
+    double rest, product = hx_two_product(x, y, &rest);
+    hx_add_double(sum, rest);
+    hx_add_double(sum, product);
+}
+
+HAIRLINE_FUNCTION void hx_add_product_of_three(hx_sum *sum, double x, double y, double z) {
+    double rest, product = hx_two_product(x, y, &rest);
+    if (rest != 0) hx_add_product(sum, rest, z);
+    if (product != 0) hx_add_product(sum, product, z);
+}
+
+HAIRLINE_FUNCTION int hx_sign_of_sum(const hx_sum *sum) {
+    if (sum->n == 0) return 0;
+    return sum->terms[sum->n - 1] > 0 ? 1 : -1;
+}
+
+/* to - from, as two doubles. */
+HAIRLINE_FUNCTION void hx_difference(double parts[2], double to, double from) {
+    parts[0] = hx_two_sum(hx_stored(to), -hx_stored(from), &parts[1]);
+}
+
+/* The sign of an edge's number, d . (to x from) of corners minus the origin. */
+HAIRLINE_FUNCTION int hx_sign_of_edge(double points[4][3], const double d[3], int from, int to) {
+    double p[3][2], q[3][2];
+    hx_sum sum;
+    int i, m, n;
+    sum.n = 0;
+    for (i = 0; i < 3; i++) {
+        hx_difference(p[i], points[to][i], points[0][i]);
+        hx_difference(q[i], points[from][i], points[0][i]);
+    }
+    for (i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        for (m = 0; m < 2; m++)
+            for (n = 0; n < 2; n++) {
+                hx_add_product_of_three(&sum, p[j][m], q[k][n], d[i]);
+                hx_add_product_of_three(&sum, -p[k][m], q[j][n], d[i]);
+            }
+    }
+    return hx_sign_of_sum(&sum);
+}
+
+/* The sign that the number of an edge, which is 0, has for the ray next to this one: see hx_side. */
+HAIRLINE_FUNCTION int hx_sign_beside(double points[4][3], const double d[3], int from, int to, int largest) {
+    int k, m, sign = 0;
+    for (k = 1; k < 3 && sign == 0; k++) {
+        int i = (largest + k) % 3, j = (i + 1) % 3, l = (i + 2) % 3;
+        double edge_j[2], edge_l[2];
+        hx_sum moved;
+        moved.n = 0;
+        hx_difference(edge_j, points[to][j], points[from][j]);
+        hx_difference(edge_l, points[to][l], points[from][l]);
+        for (m = 0; m < 2; m++) {
+            hx_add_product(&moved, edge_j[m], d[l]);
+            hx_add_product(&moved, -edge_l[m], d[j]);
+        }
+        sign = hx_sign_of_sum(&moved);
+    }
+    return sign;
+}
+
+/* Whether no product of three of these numbers loses a bit below the least double. */
+HAIRLINE_FUNCTION int hx_is_above_underflow(const double x[3]) {
+    int i;
+    for (i = 0; i < 3; i++)
+        if (x[i] != 0 && fabs(x[i]) < 0x1p-250) return 0;
+    return 1;
+}
+
+/* The sign of U + V + W if the line hits the triangle, 0 if it misses it. 0 in sign is open, and the others are right. */
+HAIRLINE_FUNCTION int hx_passage(double points[4][3], const double d[3], int sign[3]) {
+    int k, whole = 0, largest = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
+    if (fabs(d[2]) > fabs(d[largest])) largest = 2;
+    for (k = 0; k < 3; k++) {
+        if (sign[k] == 0) sign[k] = hx_sign_of_edge(points, d, 1 + (k + 1) % 3, 1 + (k + 2) % 3);
+        if (sign[k] * whole < 0) return 0;
+        if (sign[k] != 0) whole = sign[k];
+    }
+    for (k = 0; k < 3; k++) {
+        if (sign[k] != 0 || HAIRLINE_EDGES == HAIRLINE_CLOSED) continue;
+        if (HAIRLINE_EDGES == HAIRLINE_OPEN) return 0;
+        if (hx_sign_beside(points, d, 1 + (k + 1) % 3, 1 + (k + 2) % 3, largest) != whole) return 0;
+    }
+    return whole;
+}
+
 /* ---- plain arithmetic, with a margin ---- */
 
 /* x . (y x z), and the sum of the sizes of its terms */
@@ -349,12 +505,12 @@ HAIRLINE_FUNCTION double hx_plain(const double x[3], const double y[3], const do
 /* The sign of x, 0 where a margin leaves it open. */
 HAIRLINE_FUNCTION int hx_sign(double x, double margin) { return x > margin ? 1 : x < -margin ? -1 : 0; }
 
-/* The sign of n - t * det: below 0 before the end at t, above it beyond; 0 where it is open. */
+/* The sign of n - t * det, where the exact det is above 0: below 0 before the end at t, above it beyond; 0 where it is open. */
 HAIRLINE_FUNCTION int hx_plain_past(double n, double det, double t, double size_n, double size_det) {
     double end = hx_within(t, -0x1p128, 0x1p128);
     int past = hx_sign(n - end * det, 0x1p-48 * (size_n + fabs(end) * size_det) + 0x1p-620);
     /* An end farther off is only known to be farther off. */
-    if (end != t && ((t > 0) == (det > 0) ? past > 0 : past < 0)) return 0;
+    if (end != t && (t > 0 ? past > 0 : past < 0)) return 0;
     return past;
 }
 
@@ -384,7 +540,7 @@ HAIRLINE_FUNCTION int hx_values(double points[4][3], const double d[3], double l
 HAIRLINE_FUNCTION int hx_filter(double points[4][3], const double d[3], double t_min, double t_max, double loss,
                             hairline_answer *answer) {
     double p[3][3], edge[3], size[3], det, size_det, n, size_n, most = 0;
-    int sign[3], i, k, before, beyond;
+    int sign[3], i, k, whole, before, beyond;
     for (i = 0; i < 3; i++) {
         if (fabs(d[i]) > most) most = fabs(d[i]);
         for (k = 0; k < 3; k++) {
@@ -398,14 +554,21 @@ HAIRLINE_FUNCTION int hx_filter(double points[4][3], const double d[3], double t
         sign[k] = hx_sign(edge[k], 0x1p-49 * size[k] + 0x1p-760);
     }
     if (sign[0] * sign[1] < 0 || sign[1] * sign[2] < 0 || sign[2] * sign[0] < 0) return 0;
-    if (sign[0] == 0 || sign[1] == 0 || sign[2] == 0) return 2;
-    det = edge[0] + edge[1] + edge[2], size_det = size[0] + size[1] + size[2];
-    n = hx_plain(p[0], p[2], p[1], &size_n);
-    before = t_min < -DBL_MAX ? 1 : sign[0] * hx_plain_past(n, det, t_min, size_n, size_det);
-    beyond = t_max > DBL_MAX ? -1 : sign[0] * hx_plain_past(n, det, t_max, size_n, size_det);
+    whole = sign[0];
+    if (sign[0] == 0 || sign[1] == 0 || sign[2] == 0) {
+        for (k = 0; k < 4; k++)
+            if (!hx_is_above_underflow(points[k])) return 2;
+        if (!hx_is_above_underflow(d)) return 2;
+        whole = hx_passage(points, d, sign);
+        if (whole == 0) return 0;
+    }
+    det = whole * (edge[0] + edge[1] + edge[2]), size_det = size[0] + size[1] + size[2];
+    n = whole * hx_plain(p[0], p[2], p[1], &size_n);
+    before = t_min < -DBL_MAX ? 1 : hx_plain_past(n, det, t_min, size_n, size_det);
+    beyond = t_max > DBL_MAX ? -1 : hx_plain_past(n, det, t_max, size_n, size_det);
     if (before < 0 || beyond > 0) return 0;
     if (before == 0 || beyond == 0) return 2;
-    answer->hit = 1, answer->front = sign[0] > 0, answer->asked = 0;
+    answer->hit = 1, answer->front = whole > 0, answer->asked = 0;
     return hx_values(points, d, loss, answer) ? 1 : 2;
 }
 

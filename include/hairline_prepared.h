@@ -51,12 +51,6 @@ typedef struct {
     double o[3], d[3], speed, reach;
 } hp_ray;
 
-/* A number that no compiler knows to be a product any more. */
-HAIRLINE_FUNCTION double hp_stored(double x) {
-    HAIRLINE_BARRIER(double, x);
-    return x;
-}
-
 HAIRLINE_FUNCTION double hp_margin(int is_open, double rounding, double least) {
     return is_open ? HUGE_VAL : HP_ROUNDING * rounding + HP_LEAST * least;
 }
@@ -65,9 +59,9 @@ HAIRLINE_FUNCTION void hp_prepare_triangle(hp_triangle *k, const double a[3], co
     double e, f, far, longest, sum, product, whole;
     int i, is_open;
     for (i = 0; i < 3; i++) {
-        k->a[i] = hp_stored(a[i]);
-        k->ab[i] = hp_stored(b[i]) - k->a[i];
-        k->ca[i] = k->a[i] - hp_stored(c[i]);
+        k->a[i] = hx_stored(a[i]);
+        k->ab[i] = hx_stored(b[i]) - k->a[i];
+        k->ca[i] = k->a[i] - hx_stored(c[i]);
     }
     hp_cross(k->n, k->ab, k->ca);
     e = hp_length(k->ab), f = hp_length(k->ca), far = hp_length(k->a);
@@ -81,7 +75,7 @@ HAIRLINE_FUNCTION void hp_prepare_triangle(hp_triangle *k, const double a[3], co
 HAIRLINE_FUNCTION void hp_prepare_ray(hp_ray *r, const double o[3], const double d[3]) {
     double far, length;
     int i, is_open;
-    for (i = 0; i < 3; i++) r->o[i] = hp_stored(o[i]), r->d[i] = hp_stored(d[i]);
+    for (i = 0; i < 3; i++) r->o[i] = hx_stored(o[i]), r->d[i] = hx_stored(d[i]);
     far = hp_length(r->o), length = hp_length(r->d);
     is_open = !(far <= HP_LARGEST && length <= HP_LARGEST);
     r->speed = is_open ? HUGE_VAL : length + HP_LEAST * (1 + length);
