@@ -29,16 +29,18 @@
 #include <stdint.h>
 #include <string.h>
 
-#define HAIRLINE_ONCE 0
-#define HAIRLINE_CLOSED 1
-#define HAIRLINE_OPEN 2
+/* None is 0, which is what the preprocessor takes an unknown name for. */
+#define HAIRLINE_ONCE 1
+#define HAIRLINE_CLOSED 2
+#define HAIRLINE_OPEN 3
 #ifndef HAIRLINE_EDGES
 #define HAIRLINE_EDGES HAIRLINE_ONCE
 #endif
 #if HAIRLINE_EDGES != HAIRLINE_ONCE && HAIRLINE_EDGES != HAIRLINE_CLOSED && HAIRLINE_EDGES != HAIRLINE_OPEN
 #error "hairline_exact.h: HAIRLINE_EDGES is HAIRLINE_ONCE, HAIRLINE_CLOSED or HAIRLINE_OPEN"
 #endif
-#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
+    defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
 #error "hairline_exact.h: -ffast-math changes results: compile without it, and without its parts"
 #endif
 /* 16, 32 and 64 are about types narrower than double. */

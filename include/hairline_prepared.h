@@ -117,7 +117,7 @@ HAIRLINE_FUNCTION int hp_decide(const hp_triangle *k, const hp_ray *r, double t_
     return 2;
 }
 
-#define HP_SCALAR(REAL, SUFFIX)                                                                                                \
+#define HP_SCALAR(REAL, SUFFIX, LARGEST)                                                                                                \
     typedef struct {                                                                                                           \
         hp_triangle numbers;                                                                                                   \
         REAL corners[3][3];                                                                                                    \
@@ -153,7 +153,9 @@ HAIRLINE_FUNCTION int hp_decide(const hp_triangle *k, const hp_ray *r, double t_
         int i;                                                                                                                 \
         switch (hp_decide(&triangle->numbers, r, t_min, t_max, answer)) {                                                      \
         case 0: return 0;                                                                                                      \
-        case 1: answer->t = hx_within(answer->t, t_min, t_max); return 1;                                                      \
+        case 1:                                                                                                                \
+            answer->t = hx_within(answer->t, hx_larger(t_min, -LARGEST), t_max < LARGEST ? t_max : LARGEST);                   \
+            return 1;                                                                                                          \
         default: break;                                                                                                        \
         }                                                                                                                      \
         for (i = 0; i < 3; i++) o[i] = (REAL)r->o[i], d[i] = (REAL)r->d[i];                                                    \
@@ -161,9 +163,9 @@ HAIRLINE_FUNCTION int hp_decide(const hp_triangle *k, const hp_ray *r, double t_
                                        answer);                                                                                \
     }
 
-HP_SCALAR(float, f32)
+HP_SCALAR(float, f32, FLT_MAX)
 #ifndef HAIRLINE_ONLY_F32
-HP_SCALAR(double, f64)
+HP_SCALAR(double, f64, DBL_MAX)
 #endif
 
 #endif

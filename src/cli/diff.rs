@@ -6,7 +6,6 @@ use super::input::RecordText;
 use super::output::OutputArguments;
 use crate::expect::{RecordComparison, difference, difference_of};
 use crate::record::{Comparable, Record, Study};
-use crate::report::Format;
 use crate::report::epsilon::SceneResult;
 use crate::report::offset::OffsetResult;
 use crate::report::proofs::ProofResult;
@@ -33,7 +32,7 @@ pub struct DiffArguments {
 
 /// Runs the command.
 pub fn run(arguments: &DiffArguments) -> Result<Status, Failure> {
-    let pairs = arguments.output.pairs(Format::OF_PAGE)?;
+    let pairs = arguments.output.pairs(RecordComparison::FORMATS)?;
     let [old, new] = [&arguments.old, &arguments.new].map(|path| RecordText::open(path));
     let (old, new) = (old?, new?);
     let comparison = match old.study {

@@ -26,6 +26,16 @@ pub struct Blessing {
     accept_worse: bool,
 }
 
+impl Blessing {
+    /// An error if a file is to be written and none is named.
+    pub fn needs(&self, known: Option<&str>) -> Result<(), Failure> {
+        match self.bless && known.is_none() {
+            true => Err(Failure::usage("--bless: which file? Give --known FILE too")),
+            false => Ok(()),
+        }
+    }
+}
+
 /// The kind of a file of known wrong answers.
 pub struct KnownSubject {
     /// Its schema.
@@ -93,7 +103,7 @@ impl<'a> KnownCounts<'a> {
             && file.cases != cases
         {
             let message = format!(
-                "its counts are of {} cases, and this run's of {cases}: {}",
+                "its counts are of other cases ({}) than this run's ({cases}): {}",
                 file.cases, self.subject.choice
             );
             return Err(InputError::of(path, message).into());
@@ -125,8 +135,10 @@ impl<'a> KnownCounts<'a> {
                 let text = now.text(self.subject, &wrong);
                 write_result(path, |out| out.write_all(text.as_bytes()))?;
                 if !output.quiet {
-                    let counts = wrong.len();
-                    eprintln!("{path}: {counts} counts of wrong answers are known");
+                    let kinds = number_of(wrong.len() as u64, "kind", "kinds");
+                    let answers: u64 = wrong.iter().map(|it| it.rate.count).sum();
+                    let answers = number_of(answers, "wrong answer is", "wrong answers are");
+                    eprintln!("{path}: written; {answers} known, of {kinds}");
                 }
                 return Ok(Status::Success);
             }

@@ -75,6 +75,19 @@ impl OutputArguments {
         paired_outputs(table, &self.format, &self.output)
     }
 
+    /// An error if an output is one of some files that are read.
+    pub fn keeps<'a>(&self, read: impl Iterator<Item = &'a String>) -> Result<(), Failure> {
+        let outputs: Vec<PathBuf> = self.output.iter().map(|path| place_of(path)).collect();
+        for file in read.filter(|file| *file != "-") {
+            if outputs.contains(&place_of(file)) {
+                return Err(Failure::usage(format!(
+                    "-o: '{file}' is read by this command, and would be overwritten"
+                )));
+            }
+        }
+        Ok(())
+    }
+
     /// Writes a record in each format.
     pub fn write<R>(&self, pairs: Vec<(&Format<R>, &str)>, record: &R) -> Result<(), Failure> {
         let OutputArguments { color, details, .. } = *self;
@@ -139,20 +152,15 @@ pub fn paired_outputs<'a, R>(
                 [] => vec![table[0].name.to_owned()],
                 outputs => outputs
                     .iter()
-                    .map(|path| format_of(table, path).unwrap_or(table[0].name).to_owned())
-                    .collect(),
+                    .map(|path| format_by_ending(table, path))
+                    .collect::<Result<_, _>>()?,
             };
             &of_endings
         }
         named => named,
     };
     let formats = formats.iter().map(find).collect::<Result<Vec<_>, _>>()?;
-    // `a`, `./a` and a link to it are one file.
-    let place = |path: &String| match linked(Path::new(path)) {
-        path if is_standard_output(&path) => "-".into(),
-        path => std::path::absolute(&path).unwrap_or(path),
-    };
-    let places: Vec<PathBuf> = outputs.iter().map(place).collect();
+    let places: Vec<PathBuf> = outputs.iter().map(|path| place_of(path)).collect();
     if let Some(i) = (1..places.len()).find(|&i| places[..i].contains(&places[i])) {
         return Err(Failure::usage(format!(
             "-o: '{}' is given twice",
@@ -173,6 +181,35 @@ pub fn paired_outputs<'a, R>(
     }
 }
 
+/// The file of a name: `a`, `./a` and a link to it are one.
+fn place_of(path: &str) -> PathBuf {
+    match linked(Path::new(path)) {
+        path if is_standard_output(&path) => "-".into(),
+        path => std::path::absolute(&path).unwrap_or(path),
+    }
+}
+
+/// The format of a file by its name: the first of a table, unless the name ends as that of another format that there is not.
+fn format_by_ending<R>(table: &'static [Format<R>], path: &str) -> Result<String, Failure> {
+    if let Some(name) = format_of(table, path) {
+        return Ok(name.to_owned());
+    }
+    let first = table[0].name;
+    match format_named_by(path) {
+        Some(other) if ELSEWHERE.contains(&other.as_str()) => {
+            let names: Vec<&str> = table.iter().map(|format| format.name).collect();
+            Err(Failure::usage(format!(
+                "-o: '{path}' is named as {other}, which is not written here: there are {}; --format {first} writes {first} there",
+                names.join(", ")
+            )))
+        }
+        _ => Ok(first.to_owned()),
+    }
+}
+
+/// Formats that some commands write and others do not.
+const ELSEWHERE: [&str; 6] = ["json", "csv", "html", "markdown", "junit", "sarif"];
+
 /// The ends of files' names, with the formats that they stand for; the others are the formats' own names.
 const ENDINGS: [(&str, &str); 4] = [
     ("md", "markdown"),
@@ -183,16 +220,16 @@ const ENDINGS: [(&str, &str); 4] = [
 
 /// The format in which a file of a name is expected; none if its end names none of a table.
 pub fn format_of<R>(table: &[Format<R>], path: &str) -> Option<&'static str> {
+    let name = format_named_by(path)?;
+    let mut formats = table.iter().map(|format| format.name);
+    formats.find(|format| *format == name)
+}
+
+/// The format for which the end of a file's name stands.
+fn format_named_by(path: &str) -> Option<String> {
     let ending = Path::new(path).extension()?.to_str()?.to_ascii_lowercase();
-    let named = ENDINGS
-        .iter()
-        .find(|(short, _)| *short == ending)
-        .map(|(_, name)| *name);
-    let name = named.unwrap_or(&ending);
-    table
-        .iter()
-        .find(|format| format.name == name)
-        .map(|format| format.name)
+    let named = ENDINGS.iter().find(|(short, _)| *short == ending);
+    Some(named.map_or(ending.clone(), |(_, name)| (*name).to_owned()))
 }
 
 /// Writes a result to standard output (`-`) or to a file, which appears whole or stays as it was.

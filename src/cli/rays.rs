@@ -11,17 +11,19 @@ use super::input::read_mesh;
 use super::known::{Blessing, KnownCounts, KnownSubject};
 use super::output::OutputArguments;
 use crate::arith::ScalarName;
+use crate::expect::RecordComparison;
 use crate::files::InputError;
 use crate::files::mesh::Mesh;
-use crate::record::{Context, Record, provenance_of};
+use crate::record::{Context, Record, group_digits, provenance_of};
 use crate::report::{Format, write_junit};
 use clap::Args;
 use hairline_rays::{
-    AnswerKind, Answers, Asked, BadRay, FoundHits, JudgedRun, LocatedPoints, MadeRays, RaysResult,
-    RaysScalar, more_right,
+    AnswerKind, Answers, Asked, BadRay, FoundHits, JudgedRun, LocatedPoints, MadeRays,
+    PlainProgram, RaysResult, RaysScalar, more_right,
 };
-use hairline_scene::{NoTargets, Ray, RayKind, Scene, Targets};
+use hairline_scene::{Judgement, NoTargets, Ray, RayKind, Scene, Targets};
 use program::ProgramArguments;
+use std::iter;
 use std::time::Instant;
 
 /// Which mesh, which rays, whose answers.
@@ -57,9 +59,9 @@ pub struct RaysArguments {
     )]
     kinds: Vec<String>,
 
-    /// Seed of the rays that are made
-    #[arg(long, default_value_t = 1, requires = "make")]
-    seed: u64,
+    /// Seed of the rays that are made [default: 1]
+    #[arg(long, value_name = "SEED", requires = "make")]
+    seed: Option<u64>,
 
     #[command(flatten)]
     answered: AnswerArguments,
@@ -114,6 +116,10 @@ const FORMATS: &[Format<Record<RaysResult>>] = &[
         name: "junit",
         write: |record, _, out| write_junit(&record.result.suites(), out),
     },
+    Format {
+        name: "csv",
+        write: |record, _, out| record.result.write_csv(out),
+    },
 ];
 
 /// The file of known wrong answers.
@@ -121,7 +127,7 @@ const SUBJECT: KnownSubject = KnownSubject {
     schema: "hairline-rays/1",
     about: "Known wrong answers about rays at a mesh: `hairline rays --known` fails if there are more. --bless writes them.",
     parts: "judgements",
-    choice: "the file of rays, or --make and --seed, say which",
+    choice: "the mesh, the file of rays (or --make and --seed), and --scalar say which",
 };
 
 /// Runs the command.
@@ -135,6 +141,7 @@ pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
         ));
     }
     let scalar = arguments.scalar.as_deref().map(find_scalar).transpose()?;
+    arguments.check_files()?;
     let mesh = read_mesh(&arguments.mesh, arguments.output.quiet)?;
     let run = RaysRun {
         arguments,
@@ -150,10 +157,46 @@ pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
     }
 }
 
+/// The most rays that are made: they are held in memory.
+const MOST: u64 = 50_000_000;
+
 impl RaysArguments {
+    /// An error if standard input is two files, or if a result would take the place of one of the files that are read.
+    fn check_files(&self) -> Result<(), Failure> {
+        let AnswerArguments { answers, known, .. } = &self.answered;
+        let others = [&self.rays, &self.points, answers, known];
+        let read = || iter::once(&self.mesh).chain(others.into_iter().flatten());
+        if 1 < read().filter(|file| *file == "-").count() {
+            return Err(Failure::usage(
+                "-: standard input is named twice; give a file for one of them",
+            ));
+        }
+        match self.make {
+            Some(count) if MOST < count => Err(Failure::usage(format!(
+                "--make {count}: at most {}, which fill memory; use several seeds",
+                group_digits(MOST)
+            ))),
+            _ => self.output.keeps(read()),
+        }
+    }
+
     /// True if answers are judged: those of a file, or of a program that hairline runs.
     fn is_judged(&self) -> Result<bool, Failure> {
         let has_answers = self.answered.answers.is_some() || self.program.is_given();
+        self.answered
+            .blessing
+            .needs(self.answered.known.as_deref())?;
+        if self.answered.answered.is_some() && self.answered.answers.is_none() {
+            return Err(Failure::usage(
+                "--answered: a plain program answers nearest hits",
+            ));
+        }
+        let is_about_made_rays = !self.kinds.is_empty() || self.seed.is_some();
+        if is_about_made_rays && self.make.is_none() {
+            return Err(Failure::usage(
+                "--kinds and --seed are about rays that are made: give --make N too",
+            ));
+        }
         if self.answered.known.is_some() && !has_answers {
             return Err(Failure::usage(
                 "--known: whose answers? Give them with --answers, or --kernel",
@@ -243,14 +286,16 @@ impl RaysRun<'_> {
             .map(|file| KnownCounts::open(&SUBJECT, file, blessing))
             .transpose()?;
         if let Some(known) = known {
-            let outputs = output.pairs(Format::OF_PAGE)?;
+            let outputs = output.pairs(RecordComparison::FORMATS)?;
             return known.compare(self.judged_in(scalar)?, output, outputs);
         }
         let outputs = output.pairs(FORMATS)?;
         let start = Instant::now();
         let result = self.judged_in(scalar)?;
-        let status = match result.wrong_count() {
-            0 => Status::Success,
+        let status = match (result.wrong_count(), result.count(Judgement::NotDefined)) {
+            (0, 0) => Status::Success,
+            // Nothing was held to anything.
+            (0, _) => Status::BadInput,
             _ => Status::Disagreements,
         };
         let provenance = provenance_of(&Context {
@@ -287,39 +332,51 @@ impl RaysRun<'_> {
     fn judged<F: RaysScalar>(&self) -> Result<RaysResult, Failure> {
         let scene = self.scene::<F>()?;
         let asked = self.asked::<F>()?;
-        let (answers, program) = self.answers(&asked)?;
+        let program = match self.arguments.program.is_given() {
+            true => Some(self.arguments.program.program::<F>()?),
+            false => None,
+        };
         let run = JudgedRun {
             mesh: self.mesh,
             scene: &scene,
             asked: &asked,
-            answers: &answers,
-            program,
+            answers: &self.answers(&asked, program.as_ref())?,
+            program: program.as_ref(),
         };
         F::judged(&run).map_err(|bad| self.bad(bad))
     }
 
-    /// The answers, and who gave them if hairline ran it.
+    /// The answers of a program that hairline runs, or else of a file.
     fn answers<F: RaysScalar>(
         &self,
         asked: &Asked<F>,
-    ) -> Result<(Answers, Option<String>), Failure> {
+        program: Option<&PlainProgram>,
+    ) -> Result<Answers, Failure> {
         let kind = self.arguments.kind()?;
-        if let Some(file) = &self.arguments.answered.answers {
+        let Some(program) = program else {
+            let file = self.arguments.answered.answers.as_deref();
             let faces = self.mesh.triangles.len();
-            let answers = answers::answers(file, kind, asked.count(), faces)?;
-            return Ok((answers, None));
-        }
-        let program = self.arguments.program.program::<F>()?;
+            return answers::answers(file.unwrap_or_default(), kind, asked.count(), faces);
+        };
         let Asked::Rays(rays) = asked else {
             return Err(Failure::usage("--kernel: it answers rays, not points"));
         };
-        let answers = F::answered(&program, self.mesh, rays).map_err(Failure::usage)?;
-        Ok((answers, Some(program.label())))
+        F::answered(program, self.mesh, rays).map_err(Failure::usage)
     }
 
     fn scene<F: RaysScalar>(&self) -> Result<Scene<F>, Failure> {
-        F::scene(self.mesh)
-            .map_err(|error| InputError::of(&self.mesh.name, error.to_string()).into())
+        let name = &self.mesh.name;
+        let scene = F::scene(self.mesh).map_err(|error| InputError::of(name, error.to_string()))?;
+        match scene.not_finite().first() {
+            None => Ok(scene),
+            Some(face) => {
+                let message = format!(
+                    "face {face}, counted from 0, has a coordinate beyond {}",
+                    F::NAME
+                );
+                Err(InputError::of(name, message).into())
+            }
+        }
     }
 
     /// The rays or points of a file, or rays that are made.
@@ -349,7 +406,7 @@ impl RaysRun<'_> {
             };
             InputError::of(&self.mesh.name, format!("{error}{of_scalar}"))
         })?;
-        Ok(targets.rays(&kinds, count, self.arguments.seed))
+        Ok(targets.rays(&kinds, count, self.arguments.seed.unwrap_or(1)))
     }
 
     /// The failure of a ray or point that means nothing.
@@ -359,7 +416,7 @@ impl RaysRun<'_> {
             let message = format!("point {index} has a coordinate that is not finite");
             return InputError::of(file, message).into();
         }
-        let file = rays.as_deref().unwrap_or_default();
+        let file = rays.as_deref().unwrap_or(&self.mesh.name);
         InputError::of(file, format!("ray {index}, counted from 0: {error}")).into()
     }
 }

@@ -34,7 +34,8 @@ fn what_is_known_passes_more_fails_and_less_is_stale() {
     let text = fs::read_to_string(&file).unwrap();
     let counts: Vec<&str> = text.lines().filter(|line| line.starts_with('"')).collect();
     let said = format!(
-        "hairline-boxes.toml: {} counts of wrong answers are known",
+        "hairline-boxes.toml: written; {} wrong answers are known, of {} kinds",
+        group_digits(counts.values().map(|it| it.as_integer().unwrap() as u64).sum()),
         counts.len()
     );
     assert!(error.contains(&said), "{error}");
@@ -98,7 +99,7 @@ fn files_of_other_cases_and_of_no_sense_are_refused_in_a_line() {
         assert_eq!((out.as_str(), error.lines().count()), ("", 1), "{error}");
     };
     let other =
-        "known.toml: its counts are of 300 of seed 1 cases, and this run's of 200 of seed 1";
+        "known.toml: its counts are of other cases (300 of seed 1) than this run's (200 of seed 1)";
     refused(&["-n", "200", "-k", "ize"], 65, other);
     // A part of what is known may be checked, and must not be blessed.
     let part = [

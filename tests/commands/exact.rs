@@ -308,3 +308,91 @@ fn its_margin_is_wider_than_what_is_proved_of_its_formula() {
     let factor: f64 = before.rsplit(' ').next().unwrap().parse().unwrap();
     assert!((6.0..8.0).contains(&factor), "{factor}");
 }
+
+/// A program that includes a header, built and run; its output.
+fn output_of(name: &str, program: &str) -> Option<String> {
+    if !has("gcc") {
+        not_tested("there is no 'gcc' on this machine");
+        return None;
+    }
+    let folder = scratch(name);
+    std::fs::write(folder.join("program.c"), program).unwrap();
+    let include = format!("-I{HERE}/include");
+    let words = [
+        "-std=c99",
+        "-O2",
+        &include,
+        "-o",
+        "program",
+        "program.c",
+        "-lm",
+    ];
+    let built = Command::new("gcc")
+        .args(words)
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    assert!(
+        built.status.success(),
+        "{}",
+        String::from_utf8_lossy(&built.stderr)
+    );
+    let ran = Command::new(folder.join("program")).output().unwrap();
+    Some(String::from_utf8_lossy(&ran.stdout).into_owned())
+}
+
+#[test]
+fn t_beyond_the_largest_float_is_told_as_that() {
+    let program = r#"
+#include "hairline_prepared.h"
+#include <stdio.h>
+int main(void) {
+    const float o[3] = {2.5e29f, 2.5e29f, 0x1p70f}, d[3] = {0, 0, -0x1p-28f};
+    const float a[3] = {0, 0, -0x1p100f}, b[3] = {1e30f, 0, -0x1p100f}, c[3] = {0, 1e30f, -0x1p100f};
+    hairline_answer answer;
+    hairline_triangle_f32 triangle;
+    hairline_ray_f32 ray;
+    hairline_prepare_triangle_f32(&triangle, a, b, c);
+    hairline_prepare_ray_f32(&ray, o, d);
+    if (hairline_hit_f32(&triangle, &ray, 0, HUGE_VALF, &answer)) printf("%d ", answer.t == FLT_MAX);
+    if (hairline_exact_f32(o, d, a, b, c, 0, HUGE_VALF, &answer)) printf("%d", answer.t == FLT_MAX);
+    return 0;
+}
+"#;
+    if let Some(said) = output_of("exact-far", program) {
+        assert_eq!(said, "1 1");
+    }
+}
+
+#[test]
+fn flags_and_names_that_would_change_answers_are_refused() {
+    let source = PathBuf::from(HERE).join("examples/c/exact.c");
+    let include = format!("-I{HERE}/include");
+    let associative = [
+        "-fassociative-math",
+        "-fno-signed-zeros",
+        "-fno-trapping-math",
+    ];
+    for (flags, message) in [
+        (&["-ffast-math"][..], "changes results"),
+        (&associative, "changes results"),
+        (&["-freciprocal-math"], "changes results"),
+        (&["-DHAIRLINE_EDGES=closed"], "HAIRLINE_EDGES is"),
+    ] {
+        let mut compiler = Command::new("gcc");
+        let built = compiler
+            .args(["-c", "-o", "/dev/null", &include])
+            .args(flags)
+            .arg(&source)
+            .output();
+        let Ok(built) = built else {
+            not_tested("there is no 'gcc' on this machine");
+            return;
+        };
+        let said = String::from_utf8_lossy(&built.stderr);
+        assert!(
+            !built.status.success() && said.contains(message),
+            "{flags:?}: {said}"
+        );
+    }
+}

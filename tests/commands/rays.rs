@@ -2,7 +2,7 @@
 
 use crate::program::{ends, flat, scratch};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A tetrahedron with corners at the origin and at 1 on each axis, wound to the outside.
 const TETRAHEDRON: &str =
@@ -99,9 +99,13 @@ fn answers_are_judged_by_kind() {
         );
     }
     let lost = judged("none\n1\n-1\n", 1);
-    assert!(lost.contains(" lost 1 - - "), "{lost}");
+    assert!(lost.contains(" lost 1 "), "{lost}");
     assert!(
-        lost.contains(" 1 exact hit is lost: missed, or another face is answered. "),
+        lost.contains(" Rays of the wrong answers: 1 meet the inside of a face. "),
+        "{lost}"
+    );
+    assert!(
+        lost.contains(" 1 answer misses the exact hit: it names nothing, or another face. "),
         "{lost}"
     );
     // Who misses the second one sees the same: the ray runs along an edge, and comes back.
@@ -116,7 +120,7 @@ fn answers_are_judged_by_kind() {
     }
     assert!(
         wrong.contains(
-            "ray 0: the nearest is face 3; answered face 0, 0.530 longest edges behind it"
+            "ray 0: farther face: the nearest is face 3 at t = 4.25; answered face 0 at t = 5.0, 0.530 longest edges behind it"
         ),
         "{wrong}"
     );
@@ -124,11 +128,11 @@ fn answers_are_judged_by_kind() {
     assert!(late.contains(" wrong t 1 0.177 0.177 "), "{late}");
     let early = judged("3,4\n1,4\n-1\n", 1);
     assert!(
-        early.contains("answered face 3, 0.177 longest edges in front of it"),
+        early.contains("answered face 3 at t = 4.0, 0.177 longest edges in front of it"),
         "{early}"
     );
     for endless in ["3,inf\n1,4\n-1\n", "3,nan\n1,4\n-1\n"] {
-        assert!(judged(endless, 1).contains(" wrong t 1 - - "));
+        assert!(judged(endless, 1).contains(" wrong t 1 "));
     }
 }
 
@@ -171,7 +175,14 @@ fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
     );
     judged("0,1\n", &["--scalar", "f64"], 1);
     judged("0,1\n", &["--scalar", "f32"], 0);
+    // A ray that passes a rim by a hair inside in f64, and outside in f32: a miss is right in f32, and not wrong in f64.
+    fs::write(folder.join("t.obj"), square.replace("v 1 ", "v 0.7 ")).unwrap();
+    fs::write(folder.join("r.csv"), "0.299999999,0.5,1,0.4,0,-1\n").unwrap();
+    let in_f64 = judged("-1\n", &[], 0);
+    assert!(in_f64.contains(" neighbour 1 "), "{in_f64}");
+    assert!(!in_f64.contains("rounded to f32"), "{in_f64}");
     // Numbers beyond f32 are of a program in f64.
+    fs::write(folder.join("t.obj"), square).unwrap();
     fs::write(folder.join("r.csv"), "0.5,0.25,1e300,0,0,-1e300\n").unwrap();
     let far = judged("1,1\n", &[], 1);
     assert!(far.starts_with("1 of 1 answer is wrong "), "{far}");
@@ -207,12 +218,12 @@ fn other_answers_than_the_nearest_hit_are_judged_too() {
         assert!(said.starts_with("None of 3 answers is wrong "), "{said}");
     }
     for (questions, kind, answers, words) in [
-        (&rays[..], "any", "0\n1\n1\n", " lost 1 - - ghost 1 - - "),
+        (&rays[..], "any", "0\n1\n1\n", " lost 1 ghost 1 "),
         (
             &rays,
             "count",
             "1\n1\n2\n",
-            " too few 1 - - too many 1 - - ",
+            " too few 1 too many 1 ",
         ),
         (&rays, "all", "0,0,5\n0,3,4.25\n", " wrong order 1 - - "),
         (
@@ -225,14 +236,14 @@ fn other_answers_than_the_nearest_hit_are_judged_too() {
             &rays,
             "all",
             "0,3\n",
-            "ray 0: face 0 is met too; answered faces 3",
+            "ray 0: lost: it meets face 3 at t = 4.25, then face 0 at t = 5.0; answered face 3",
         ),
         (&points, "inside", "0\n0\n1\n", " wrong side 1 0.088 0.088 "),
         (
             &points,
             "inside",
             "0\n0\n1\n",
-            "point 0: answered outside, 0.088 longest edges from the surface",
+            "point 0 (0.125, 0.125, 0.125): wrong side: it is inside; answered outside, 0.088 longest edges from the surface",
         ),
     ] {
         let said = judged(questions, kind, answers, 1);
@@ -251,6 +262,9 @@ fn other_answers_than_the_nearest_hit_are_judged_too() {
         65,
         "a.csv:1: expected a ray's number, from 0 and below 3, first",
     );
+    fs::write(folder.join("b.csv"), "0,-1\n").unwrap();
+    let with_a_miss = ["r.csv", "--answers", "b.csv", "--answered", "all"];
+    refused(&with_a_miss, 65, "b.csv:1: a miss has no line here");
     refused(&asked("count"), 65, "a.csv:1: expected one word, found 2");
     refused(&asked("nearst"), 2, "did you mean 'nearest'?");
     refused(&asked("inside"), 2, "Give --points FILE in place of rays");
@@ -316,6 +330,11 @@ fn known_wrong_answers_pass_more_fail_and_less_is_stale() {
     held("3\n1\n2\n", &["-q"], 0);
     let (screen, _) = held("0\n1\n2\n", &["-q"], 1);
     assert!(screen.starts_with("1 worse, 0 better"), "{screen}");
+    assert!(screen.contains("hairline explain"), "{screen}");
+    let (junit, _) = held("0\n1\n2\n", &["-q", "--format", "junit"], 1);
+    assert!(junit.contains("tests=\"1\" failures=\"1\""), "{junit}");
+    let (junit, _) = held("3\n1\n2\n", &["-q", "--format", "junit"], 0);
+    assert!(junit.contains("tests=\"1\" failures=\"0\""), "{junit}");
     held("3\n1\n-1\n", &["-q"], 3);
     held("0\n1\n2\n", &["-q", "--bless"], 1);
     held("0\n1\n2\n", &["-q", "--bless", "--accept-worse"], 0);
@@ -324,9 +343,23 @@ fn known_wrong_answers_pass_more_fail_and_less_is_stale() {
     fs::write(folder.join("r.csv"), "0,0,5,0,0,1\n").unwrap();
     let (_, error) = held("-1\n", &["-q"], 65);
     assert!(
-        error.contains("k.toml: its counts are of 3 rays, "),
+        error.contains("k.toml: its counts are of other cases (3 rays, "),
         "{error}"
     );
+    let (_, error) = ends(
+        &folder,
+        &[
+            "rays",
+            "t.obj",
+            "r.csv",
+            "--bless",
+            "-q",
+            "--answers",
+            "a.csv",
+        ],
+        2,
+    );
+    assert!(error.contains("--bless: which file?"), "{error}");
 }
 
 #[test]
@@ -398,8 +431,8 @@ fn a_plain_program_loses_what_its_tests_lose() {
         "{watertight}"
     );
     let strict = judged(&["-k", "plane-inside-out-strict"], 1);
-    assert!(strict.contains("The triangle test loses them"), "{strict}");
-    assert!(strict.contains("(plane-inside-out-strict "), "{strict}");
+    let reason = "Every face was asked about, so the triangle test loses them.";
+    assert!(strict.contains(reason), "{strict}");
     // Hills of tenths, whose boxes no float is exact for.
     fs::write(folder.join("t.obj"), hills(12)).unwrap();
     let boxes = |test| {
@@ -414,7 +447,12 @@ fn a_plain_program_loses_what_its_tests_lose() {
     };
     let lost = judged(&boxes("bvh"), 1);
     assert!(lost.contains("The box test loses them"), "{lost}");
-    assert!(lost.contains("(bvh ") || lost.contains(", bvh "), "{lost}");
+    let without = "Where every face is asked, none of ";
+    assert!(lost.contains(without), "{lost}");
+    // A tree with boxes does not help a triangle test.
+    let strict = judged(&["-k", "plane-inside-out-strict", "--box-test", "ize"], 1);
+    assert!(strict.contains("the triangle test loses them"), "{strict}");
+    assert!(strict.contains(" lost all the same"), "{strict}");
     judged(&boxes("ize"), 0);
     let refused = |more: &[&str], message: &str| {
         let (_, error) = ends(&folder, &[&made[..], more].concat(), 2);
@@ -462,6 +500,157 @@ fn points_are_inside_outside_or_on_it() {
         flat(&screen).contains("the surface is open, at an edge of face "),
         "{screen}"
     );
+    // Nothing was held to anything, so it is no success.
+    fs::write(folder.join("a.csv"), "1\n0\n1\n").unwrap();
+    let (screen, _) = ends(
+        &folder,
+        &[&points[..], &["--answers", "a.csv"]].concat(),
+        65,
+    );
+    let screen = flat(&screen);
+    assert!(
+        screen.starts_with("2 of 3 answers cannot be judged The surface is open, so only points on it can be judged"),
+        "{screen}"
+    );
+}
+
+#[test]
+fn misses_do_not_make_a_program_one_in_f32() {
+    let folder = folder("rays-misses");
+    // A square whose sides are less than the step of f32 out there: nothing is hit in f32.
+    let far = "v 1000000011 0 0\nv 1000000012 0 0\nv 1000000012 1 0\nf 1 2 3\n";
+    fs::write(folder.join("t.obj"), far).unwrap();
+    fs::write(folder.join("r.csv"), "1000000011.75,0.5,1,0,0,-1\n").unwrap();
+    fs::write(folder.join("a.csv"), "-1\n").unwrap();
+    let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+    let said = flat(&ends(&folder, &words, 1).0);
+    assert!(said.starts_with("1 of 1 answer is wrong "), "{said}");
+    assert!(!said.contains("rounded to f32"), "{said}");
+    // One answer tells nobody who loses hits.
+    assert!(
+        said.contains("too few of these or of those to tell"),
+        "{said}"
+    );
+    fs::write(
+        folder.join("t.obj"),
+        "v 0 0 0\nv 1e300 0 0\nv 0 1e300 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    fs::write(folder.join("r.csv"), "2.5e299,2.5e299,1e299,0,0,-1e299\n").unwrap();
+    ends(&folder, &words, 1);
+    let (_, error) = ends(&folder, &[&words[..], &["--scalar", "f32"]].concat(), 65);
+    assert!(
+        error.contains("t.obj: face 0, counted from 0, has a coordinate beyond f32"),
+        "{error}"
+    );
+}
+
+#[test]
+fn what_is_read_is_not_overwritten_and_flags_are_not_ignored() {
+    let folder = folder("rays-flags");
+    fs::write(folder.join("a.csv"), "3\n1\n-1\n").unwrap();
+    let refused = |words: &[&str], message: &str| {
+        let (_, error) = ends(&folder, &[&["rays", "t.obj", "-q"], words].concat(), 2);
+        assert!(error.contains(message), "{words:?}: {error}");
+    };
+    let before = fs::read_to_string(folder.join("r.csv")).unwrap();
+    refused(
+        &["r.csv", "--format", "csv", "-o", "./r.csv"],
+        "'r.csv' is read by this command",
+    );
+    refused(
+        &["r.csv", "--format", "csv", "-o", "t.obj"],
+        "'t.obj' is read by this command",
+    );
+    assert_eq!(fs::read_to_string(folder.join("r.csv")).unwrap(), before);
+    refused(
+        &["r.csv", "-k", "woop-watertight", "--answered", "any"],
+        "a plain program answers nearest hits",
+    );
+    refused(
+        &["r.csv", "--answered", "any"],
+        "required arguments were not provided",
+    );
+    refused(&["r.csv", "--seed", "2"], "give --make N too");
+    refused(
+        &["r.csv", "--answers", "a.csv", "--epsilon", "parallel=1"],
+        "cannot be used with",
+    );
+    refused(&["--make", "18446744073709551615"], "at most 50,000,000");
+    let (_, error) = ends(&folder, &["rays", "-", "-", "-q"], 2);
+    assert!(error.contains("standard input is named twice"), "{error}");
+    // A head that is an answer too, a byte order mark, and a miss as Python prints it.
+    let judged = |answers: &str, kind: &str| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = [
+            "rays",
+            "t.obj",
+            "r.csv",
+            "-q",
+            "--answers",
+            "a.csv",
+            "--answered",
+            kind,
+        ];
+        ends(&folder, &words, 0);
+    };
+    judged("hit\n1\n1\n0\n", "any");
+    judged("\u{feff}face,t\n3,4.25\n1,4\nNone\n", "nearest");
+    judged("\u{feff}3\n1\n-1\n", "nearest");
+}
+
+#[test]
+fn every_answer_is_told_as_csv() {
+    let folder = folder("rays-csv");
+    fs::write(folder.join("a.csv"), "0,5\nnone\n-1\n").unwrap();
+    let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv", "-o"];
+    ends(&folder, &[&words[..], &["all.csv"]].concat(), 1);
+    let all = fs::read_to_string(folder.join("all.csv")).unwrap();
+    let lines: Vec<&str> = all.lines().collect();
+    assert_eq!(
+        lines[0],
+        "number,judgement,exact_faces,exact_t,answered,answered_t,off_in_edges"
+    );
+    assert!(
+        lines[1].starts_with("0,farther face,3,4.25,0,5.0,0.53"),
+        "{all}"
+    );
+    assert!(lines[2].starts_with("1,neighbour,"), "{all}");
+    assert_eq!(lines[3], "2,right,,,,,");
+    // A name that promises what is not written here is refused, and nothing is written.
+    let (_, error) = ends(&folder, &[&words[..], &["all.sarif"]].concat(), 2);
+    assert!(error.contains("'all.sarif' is named as sarif"), "{error}");
+    assert!(!folder.join("all.sarif").exists());
+}
+
+#[test]
+fn the_epsilon_of_a_triangle_test_that_loses_hits_is_found() {
+    let folder = folder("rays-epsilon");
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpora/meshes/torus.obj");
+    let mesh = mesh.to_str().unwrap();
+    let rays = ["rays", mesh, "-q", "--make", "3000", "--scalar", "f64"];
+    let program = ["-k", "moller-trumbore", "--epsilon", "parallel=1e-5"];
+    ends(&folder, &[&rays[..], &["-o", "r.csv"]].concat(), 0);
+    ends(
+        &folder,
+        &[&rays[..], &program, &["-o", "own.csv"]].concat(),
+        1,
+    );
+    // The same answers as those of a stranger.
+    let own = fs::read_to_string(folder.join("own.csv")).unwrap();
+    let answers: String = own
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            format!("{},{}\n", cells[4], cells[5])
+        })
+        .collect();
+    fs::write(folder.join("a.csv"), answers).unwrap();
+    let judged = ["rays", mesh, "r.csv", "-q", "--answers", "a.csv"];
+    let said = flat(&ends(&folder, &judged, 1).0);
+    assert!(said.contains("The triangle test loses them"), "{said}");
+    assert!(said.contains("moller-trumbore (parallel=1e-5) "), "{said}");
 }
 
 #[test]
@@ -476,12 +665,18 @@ fn bad_input_is_named_by_file_and_line() {
         ("two.csv", "3\n1\n"),
         ("many.csv", "3,1,2\n1\n1\n"),
         ("far.csv", "9\n1\n-1\n"),
+        ("array.csv", "[{\"origin\":[0,0,5]}]\n"),
     ] {
         fs::write(folder.join(name), text).unwrap();
     }
     // Numbers are no head.
     fs::write(folder.join("nan.csv"), "nan,0,5,0,0,-1\n0,0,5,0,0,-1\n").unwrap();
-    let cases: [(&[&str], i32, &str); 13] = [
+    let cases: [(&[&str], i32, &str); 14] = [
+        (
+            &["array.csv"],
+            65,
+            "array.csv:1: expected a ray a line, not an array",
+        ),
         (
             &["nan.csv"],
             65,

@@ -18,6 +18,7 @@ mod bless;
 mod changed;
 mod compare;
 mod difference;
+mod difference_page;
 mod file;
 mod files;
 mod known;

@@ -21,12 +21,16 @@ pub fn difference_of<R: Comparable>(old: &R, new: &R) -> RecordComparison {
         if (old.rate.count, old.rate.of) == (new.rate.count, new.rate.of) {
             continue;
         }
+        let change = judge.change(same_cases, &old.rate, &new.rate);
+        // What is still wrong shows nothing better.
+        let is_better = same_cases && change == Trend::Better;
+        let command = new.command.clone().or(old.command.clone());
         differences.push(Difference {
             what: old.what.clone(),
-            change: judge.change(same_cases, &old.rate, &new.rate),
+            change,
             old: old.rate.clone(),
             new: new.rate.clone(),
-            command: new.command.clone().or(old.command.clone()),
+            command: command.filter(|_| !is_better),
             shown: "",
         });
     }

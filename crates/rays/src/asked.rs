@@ -1,6 +1,8 @@
 //! The questions to a program, and its answers.
 
 use crate::kernel::Scalar;
+use crate::record::number_of;
+use crate::single::joined;
 use hairline_scene::{Answer, InvalidRay, Judged, NamedHit, NamedPlace, Ray, Scene};
 use rayon::prelude::*;
 
@@ -58,7 +60,7 @@ impl Answers {
         match self {
             Answers::Nearest(all) => match all[index].face {
                 None => "a miss".to_owned(),
-                Some(face) => format!("face {face}"),
+                Some(face) => at_t(face, all[index].t),
             },
             Answers::Any(all) => match all[index] {
                 true => "a hit".to_owned(),
@@ -66,12 +68,73 @@ impl Answers {
             },
             Answers::All(all) if all[index].is_empty() => "no hit".to_owned(),
             Answers::All(all) => {
-                let faces: Vec<String> = all[index].iter().map(|it| it.face.to_string()).collect();
-                format!("faces {}", faces.join(", "))
+                let shown = all[index].iter().take(TOLD);
+                let mut hits: Vec<String> = shown.map(|it| at_t(it.face, it.t)).collect();
+                if TOLD < all[index].len() {
+                    hits.push(format!("{} more", all[index].len() - TOLD));
+                }
+                hits.join(", ")
             }
-            Answers::Count(all) => format!("{} hits", all[index]),
+            Answers::Count(all) => number_of(all[index], "hit", "hits"),
             Answers::Inside(all) => all[index].name().to_owned(),
         }
+    }
+
+    /// An answer as a cell of a table: faces, a number or a word.
+    pub(crate) fn in_short(&self, index: usize) -> String {
+        match self {
+            Answers::Nearest(all) => all[index].face.map_or(String::new(), |it| it.to_string()),
+            Answers::All(all) => {
+                let faces: Vec<u32> = all[index].iter().map(|it| it.face).collect();
+                joined(&faces)
+            }
+            Answers::Count(all) => all[index].to_string(),
+            Answers::Any(_) | Answers::Inside(_) => self.in_words(index),
+        }
+    }
+
+    /// The answers with each t divided by a length.
+    pub(crate) fn with_t_divided(&self, lengths: &[f64]) -> Answers {
+        match self {
+            Answers::Nearest(all) => {
+                let divided = all.iter().zip(lengths).map(|(it, length)| Answer {
+                    t: it.t.map(|t| t / length),
+                    ..*it
+                });
+                Answers::Nearest(divided.collect())
+            }
+            Answers::All(all) => {
+                let divided = all.iter().zip(lengths).map(|(hits, length)| {
+                    let hits = hits.iter().map(|it| NamedHit {
+                        t: it.t.map(|t| t / length),
+                        ..*it
+                    });
+                    hits.collect()
+                });
+                Answers::All(divided.collect())
+            }
+            Answers::Any(all) => Answers::Any(all.clone()),
+            Answers::Count(all) => Answers::Count(all.clone()),
+            Answers::Inside(all) => Answers::Inside(all.clone()),
+        }
+    }
+
+    /// The t of a nearest hit, if the program gave one.
+    pub(crate) fn t(&self, index: usize) -> Option<f64> {
+        match self {
+            Answers::Nearest(all) => all[index].t,
+            _ => None,
+        }
+    }
+}
+
+/// How many hits of a ray are told.
+const TOLD: usize = 6;
+
+fn at_t(face: u32, t: Option<f64>) -> String {
+    match t {
+        None => format!("face {face}"),
+        Some(t) => format!("face {face} at t = {t:?}"),
     }
 }
 

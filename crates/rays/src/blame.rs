@@ -4,13 +4,13 @@
 use crate::audit::Row as KernelRow;
 use crate::case::{Case, Target};
 use crate::files::mesh::Mesh;
-use crate::kernel::{KERNELS, KernelIn, Scalar, Verdict, verdicts_of};
+use crate::kernel::{Entry, KERNELS, KernelIn, Scalar, Verdict, verdicts_of};
 use crate::result::{LostHits, MissCount};
 use crate::single::{box_case, case_of};
 use hairline_boxes::{BoxCase, KERNELS as BOX_TESTS, Setup};
 use hairline_scene::{Nearest, Ray, Scene};
 use std::cmp::Reverse;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// An exact hit of a ray.
 pub struct HitOfRay<'a, F: Scalar> {
@@ -18,8 +18,14 @@ pub struct HitOfRay<'a, F: Scalar> {
     pub hit: &'a Nearest,
 }
 
-/// About as many of the hits that a program found are looked at.
-const FOUND: usize = 50_000;
+/// About as many hits that a program found, or lost, are looked at.
+const SAMPLE: usize = 50_000;
+
+/// So many faces of a hit at most.
+const FACES: usize = 64;
+
+/// Fewer hits that are lost, or found, do not tell who loses them.
+pub const FEWEST: usize = 10;
 
 /// Counts who loses the hits too that a program lost, and loses others that it found: a test that the program has misses what is
 /// lost and nothing else.
@@ -37,55 +43,104 @@ pub fn lost_hits<F: Scalar>(
     }
     let mut counts = LostHits {
         count: lost.len() as u64,
+        found: found.len() as u64,
         at_start: ends[0],
         at_end: ends[1],
         ..LostHits::default()
     };
-    if lost.is_empty() {
+    if lost.len() < FEWEST || found.len() < FEWEST {
         return counts;
     }
-    let step = found.len().div_ceil(FOUND).max(1);
     let sides = Sides {
-        lost: Both::new(mesh, lost.iter()),
-        found: Both::new(mesh, found.iter().step_by(step)),
-        scale: step as u64,
+        lost: Sample::of(mesh, lost),
+        found: Sample::of(mesh, found),
     };
-    let kernels = KERNELS.iter().filter_map(|entry| {
-        let name = entry.info.name;
-        let row = KernelRow::named(name, None, "own").ok()?;
-        let (kernel, epsilons) = (F::subject(entry)?, row.epsilons::<F>());
-        let missed = sides.count(|side| side.triangles.missed_by(kernel, &epsilons));
-        let explained = missed.of_lost.saturating_sub(missed.of_found);
-        Some(missed.named(name, explained))
-    });
+    let kernels = KERNELS.iter().filter_map(|entry| sides.of_kernel(entry));
     counts.missed_by_kernels = best_first(kernels);
     let box_tests = BOX_TESTS.iter().filter_map(|entry| {
         let setup = Setup::published(entry).into_iter().next()?;
         let (test, epsilons) = (setup.subject().ok()?, setup.epsilons::<F>()?);
         let missed = sides.count(|side| side.boxes.missed_by(test, &epsilons));
-        let share = missed.of_found as f64 / found.len().max(1) as f64;
-        let by_chance = (share * lost.len() as f64).round() as u64;
-        let explained = missed.of_lost.saturating_sub(by_chance);
-        Some(missed.named(entry.info.name, explained))
+        let explained = missed.of_lost.saturating_sub(sides.by_chance(&missed));
+        Some(missed.named(entry.info.name, None, explained))
     });
     counts.missed_by_box_tests = best_first(box_tests);
     counts
 }
 
+/// The gate of rays along the plane, and the powers of ten that programs have there.
+const PARALLEL: &str = "parallel";
+const DECADES: RangeInclusive<i32> = -12..=-3;
+
+/// The epsilons with which a kernel is asked: none for its own, and others for rays along the plane.
+fn epsilons_of(entry: &Entry) -> Vec<Option<String>> {
+    let mut all = vec![None];
+    if entry.info.gates.iter().any(|gate| gate.name == PARALLEL) {
+        let decades = DECADES.map(|power| format!("1e{power}"));
+        let values = ["0".to_owned()].into_iter().chain(decades);
+        all.extend(values.map(|value| Some(format!("{PARALLEL}={value}"))));
+    }
+    all
+}
+
 /// The hits that are lost, and those that are found.
 struct Sides<F: Scalar> {
-    lost: Both<F>,
-    found: Both<F>,
-    /// Each hit that is found stands for so many.
+    lost: Sample<F>,
+    found: Sample<F>,
+}
+
+/// Some of many hits.
+struct Sample<F: Scalar> {
+    hits: Both<F>,
+    count: usize,
+    /// Each stands for so many.
     scale: u64,
 }
 
-impl<F: Scalar> Sides<F> {
-    fn count(&self, missed: impl Fn(&Both<F>) -> u64) -> Missed {
-        Missed {
-            of_lost: missed(&self.lost),
-            of_found: missed(&self.found) * self.scale,
+impl<F: Scalar> Sample<F> {
+    fn of(mesh: &Mesh, hits: &[HitOfRay<F>]) -> Sample<F> {
+        let step = hits.len().div_ceil(SAMPLE).max(1);
+        Sample {
+            hits: Both::new(mesh, hits.iter().step_by(step)),
+            count: hits.len(),
+            scale: step as u64,
         }
+    }
+}
+
+impl<F: Scalar> Sides<F> {
+    /// What a kernel misses, with its own epsilons or with another one for rays along the plane: the one that explains most.
+    fn of_kernel(&self, entry: &Entry) -> Option<MissCount> {
+        let kernel = F::subject(entry)?;
+        let mut best: Option<MissCount> = None;
+        for epsilon in epsilons_of(entry) {
+            let name = entry.info.name;
+            let Ok(row) = KernelRow::named(name, epsilon.as_deref(), "own") else {
+                continue;
+            };
+            let values = row.epsilons::<F>();
+            let missed = self.count(|side| side.triangles.missed_by(kernel, &values));
+            let unexplained = missed.of_found.max(self.by_chance(&missed));
+            let explained = missed.of_lost.saturating_sub(unexplained);
+            if best.as_ref().is_none_or(|best| best.explained < explained) {
+                best = Some(missed.named(name, epsilon, explained));
+            }
+        }
+        best
+    }
+
+    fn count(&self, missed: impl Fn(&Both<F>) -> u64) -> Missed {
+        let Sides { lost, found } = self;
+        Missed {
+            of_lost: (missed(&lost.hits) * lost.scale).min(lost.count as u64),
+            of_found: missed(&found.hits) * found.scale,
+        }
+    }
+
+    /// How many lost hits a test would miss if it missed as large a share of them as of those that are found.
+    fn by_chance(&self, missed: &Missed) -> u64 {
+        let share = missed.of_found as f64 / self.found.count as f64;
+        (share * self.lost.count as f64).round() as u64
     }
 }
 
@@ -96,9 +151,10 @@ struct Missed {
 }
 
 impl Missed {
-    fn named(&self, name: &str, explained: u64) -> MissCount {
+    fn named(&self, name: &str, epsilon: Option<String>, explained: u64) -> MissCount {
         MissCount {
             name: name.to_owned(),
+            epsilon,
             count: self.of_lost,
             of_found: self.of_found,
             explained,
@@ -123,7 +179,7 @@ impl<F: Scalar> Both<F> {
         let mut triangles = Grouped::default();
         let mut boxes = Grouped::default();
         for HitOfRay { ray, hit } in hits {
-            let faces = hit.faces.iter();
+            let faces = hit.faces.iter().take(FACES);
             triangles.add(faces.clone().map(|face| case_of(mesh, ray, *face)));
             boxes.add(faces.map(|face| box_case(ray, &mesh.vertices::<F>(*face as usize))));
         }

@@ -74,11 +74,12 @@ fn found_by<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>) -> Result<FoundHit, Inval
     };
     let values = scene.values(ray, nearest.faces[0])?;
     let passages = scene.passages(ray)?;
+    let hits = scene.hits(ray)?;
     Ok(FoundHit {
         t: values.map(|values| values.t[0]),
         faces: nearest.faces,
         meetings: passages.len(),
-        met: passages.iter().map(|passage| passage.faces.len()).sum(),
+        met: hits.iter().map(|hit| hit.faces.len()).sum(),
     })
 }
 

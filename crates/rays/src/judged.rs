@@ -1,25 +1,24 @@
 //! The answers of a program, judged and counted, with the worst of them.
 
-use crate::asked::{Answers, Asked, BadRay};
+use crate::asked::{AnswerKind, Answers, Asked, BadRay, of_all};
 use crate::blame::{HitOfRay, lost_hits};
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
 use crate::files::hex;
 use crate::kernel::Scalar;
+use crate::plain::{self, PlainProgram};
 use crate::record::number_of;
-use crate::result::{JudgementCount, RaysResult, WrongAnswer, mesh_label, short};
+use crate::result::{JudgementCount, RaysResult, WithoutBoxes, WrongRays, mesh_label};
 use crate::scalar::JudgedRun;
-use crate::single::explain_command;
+use crate::told::{each, worst};
 use hairline_scene::{Judged, Judgement, Ray};
 use hmac_sha256::Hash;
-
-/// How many wrong answers are told with their commands.
-const TOLD: usize = 3;
 
 /// The fewest faces by which a shift of their numbers is known.
 const FEWEST: usize = 5;
 
-/// Judges answers, by the rays as they are, or with directions of length 1 if more are right then.
+/// Judges answers, by the rays as they are, or with directions of length 1 if more are right then: as a program has it that makes them
+/// so, or one that multiplies t alone.
 pub fn judged<F: Scalar>(run: &JudgedRun<F>) -> Result<RaysResult, BadRay>
 where
     Case<F>: Into<AnyCase>,
@@ -29,18 +28,26 @@ where
     if wrong_t == 0 {
         return Ok(as_written);
     }
-    let rays = run.asked.rays().iter().map(with_unit_direction);
-    let Some(rays) = rays.collect() else {
+    let rays = run.asked.rays();
+    let units: Option<Vec<Ray<F>>> = rays.iter().map(with_unit_direction).collect();
+    let Some(units) = units else {
         return Ok(as_written);
     };
-    let asked = Asked::Rays(rays);
-    let with_units = counted(&JudgedRun {
-        asked: &asked,
-        program: run.program.clone(),
+    let lengths: Vec<f64> = rays.iter().map(length_of).collect();
+    let by_length = counted(&JudgedRun {
+        answers: &run.answers.with_t_divided(&lengths),
         ..*run
     })?;
+    let by_units = counted(&JudgedRun {
+        asked: &Asked::Rays(units),
+        ..*run
+    })?;
+    let with_units = match by_units.right_hits < by_length.right_hits {
+        true => by_length,
+        false => by_units,
+    };
     // A program that loses rays at edges is right more often by any rays that are rounded: t has to be better too.
-    let is_better = as_written.right_count() < with_units.right_count()
+    let is_better = as_written.right_hits < with_units.right_hits
         && 2 * with_units.count(Judgement::WrongT) < wrong_t;
     Ok(match is_better {
         true => RaysResult {
@@ -53,23 +60,25 @@ where
     })
 }
 
-/// The judgements in f64 if all are right there, or no fewer than in f32: most programs compute in one of the two, and name the
-/// exact face most often by the numbers that they have.
+/// The judgements in f64 if none is wrong there, or else in f32 if that explains more: most programs compute in one of the two,
+/// and name the exact face most often by the numbers that they have.
 pub fn more_right<E>(
     in_f64: RaysResult,
     in_f32: impl FnOnce() -> Result<RaysResult, E>,
 ) -> RaysResult {
-    let right = in_f64.right_count();
-    if right == in_f64.asked {
+    if in_f64.wrong_count() == 0 {
         return in_f64;
     }
     // Numbers that f32 does not hold are of a program that computes in f64.
     let Ok(in_f32) = in_f32() else {
         return in_f64;
     };
-    match right < in_f32.right_count() {
+    // Misses tell nothing: a mesh that f32 does not hold has no hits there. Silhouettes that are left out are neither right nor wrong.
+    let explains_more =
+        in_f64.right_hits < in_f32.right_hits && in_f32.wrong_count() <= in_f64.wrong_count();
+    match explains_more {
         true => RaysResult {
-            right_as_written: in_f64.right_as_written.or(Some(right)),
+            right_as_written: in_f64.right_as_written.or(Some(in_f64.right_count())),
             ..in_f32
         },
         false => in_f64,
@@ -78,6 +87,7 @@ pub fn more_right<E>(
 
 /// The ray of a program that makes directions of length 1 first; none if floats do not hold it.
 fn with_unit_direction<F: Scalar>(ray: &Ray<F>) -> Option<Ray<F>> {
+    // In the scalar, as the program does it.
     let [x, y, z] = ray.direction;
     let length = (x * x + y * y + z * z).sqrt();
     let direction = ray.direction.map(|component| component / length);
@@ -87,6 +97,11 @@ fn with_unit_direction<F: Scalar>(ray: &Ray<F>) -> Option<Ray<F>> {
     is_ray.then(|| Ray::new(ray.origin, direction).on(on[0], on[1]))
 }
 
+fn length_of<F: Scalar>(ray: &Ray<F>) -> f64 {
+    let [x, y, z] = ray.direction.map(F::to_f64);
+    x.hypot(y).hypot(z)
+}
+
 fn counted<F: Scalar>(run: &JudgedRun<F>) -> Result<RaysResult, BadRay>
 where
     Case<F>: Into<AnyCase>,
@@ -94,10 +109,13 @@ where
     let judged = run.asked.judged(run.scene, run.answers)?;
     let lost = hits_of(run, &judged, is_of_a_lost_hit);
     let found = hits_of(run, &judged, Judgement::is_right);
+    let right_hits = found.len() as u64;
+    let mut lost = lost_hits(run.mesh, run.scene, &lost, &found);
+    lost.without_boxes = without_boxes(run, &judged)?;
     Ok(RaysResult {
         mesh: mesh_label(run.mesh),
         cases: cases_label(run.asked),
-        program: run.program.clone(),
+        program: run.program.map(PlainProgram::label),
         kind: run.answers.kind(),
         scalar: F::NAME,
         has_unit_directions: false,
@@ -108,9 +126,83 @@ where
             .collect(),
         right_as_written: None,
         shift: shift(run.answers, &judged),
-        lost: lost_hits(run.mesh, run.scene, &lost, &found),
-        worst: worst(run, &judged),
+        lost,
+        wrong_rays: wrong_rays(run, &judged)?,
+        worst: worst(run, &judged)?,
+        right_hits,
+        each: each(run, &judged)?,
     })
+}
+
+/// The rays whose answers have a judgement, with their numbers.
+fn rays_of<'a, F: Scalar>(
+    run: &'a JudgedRun<F>,
+    judged: &'a [Judged],
+    is_meant: impl Fn(Judgement) -> bool,
+) -> Vec<(usize, &'a Ray<F>)> {
+    let all = run.asked.rays().iter().enumerate();
+    all.filter(|(index, _)| is_meant(judged[*index].judgement))
+        .collect()
+}
+
+/// How the rays of wrong answers meet the mesh: of a nearest hit there, of others anywhere.
+fn wrong_rays<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<WrongRays, BadRay> {
+    let wrong = rays_of(run, judged, Judgement::is_wrong);
+    let mut counts = WrongRays::default();
+    let meets_first_alone = matches!(run.answers.kind(), AnswerKind::Nearest | AnswerKind::Any);
+    let passages = of_all(wrong.len(), |i| run.scene.passages(wrong[i].1));
+    let passages = passages.map_err(|bad| BadRay {
+        index: wrong[bad.index].0,
+        ..bad
+    })?;
+    for mut passages in passages {
+        let is_in_plane = passages.iter().any(|it| it.is_segment);
+        if meets_first_alone {
+            passages.truncate(1);
+        }
+        let is_at_edge = passages.iter().any(|it| 1 < it.faces.len());
+        let count = match passages.is_empty() {
+            true => &mut counts.nothing,
+            false if is_in_plane => &mut counts.in_plane,
+            false if is_at_edge => &mut counts.at_edge,
+            false => &mut counts.inside,
+        };
+        *count += 1;
+    }
+    Ok(counts)
+}
+
+/// The most faces that are asked about to see what a program loses without boxes, of all rays together.
+const ASKED: usize = 30_000_000;
+
+/// What a plain program with boxes loses without them too, of the rays whose hits are lost.
+fn without_boxes<F: Scalar>(
+    run: &JudgedRun<F>,
+    judged: &[Judged],
+) -> Result<Option<WithoutBoxes>, BadRay>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let Some(program) = run.program.filter(|program| program.box_test.is_some()) else {
+        return Ok(None);
+    };
+    let lost = rays_of(run, judged, is_of_a_lost_hit);
+    let most = ASKED / run.mesh.triangles.len().max(1);
+    let step = lost.len().div_ceil(most.max(1)).max(1);
+    let rays: Vec<Ray<F>> = lost.iter().step_by(step).map(|(_, ray)| **ray).collect();
+    let plain = PlainProgram {
+        kernel: program.kernel.clone(),
+        box_test: None,
+    };
+    let Ok(answers) = plain::answered(&plain, run.mesh, &rays) else {
+        return Ok(None);
+    };
+    let judged = Asked::Rays(rays).judged(run.scene, &answers)?;
+    let lost = judged.iter().filter(|it| is_of_a_lost_hit(it.judgement));
+    Ok(Some(WithoutBoxes {
+        tried: judged.len() as u64,
+        lost: lost.count() as u64,
+    }))
 }
 
 /// The exact hits of rays whose answers have a judgement.
@@ -128,11 +220,11 @@ fn hits_of<'a, F: Scalar>(
     hits
 }
 
-/// True if the exact hit is missed, or another face is named in its place.
+/// True if the exact hit is missed, or another face is named in its place. Which hits a count leaves out is not known.
 fn is_of_a_lost_hit(judgement: Judgement) -> bool {
     matches!(
         judgement,
-        Judgement::Lost | Judgement::Farther | Judgement::Ghost | Judgement::TooFew
+        Judgement::Lost | Judgement::Farther | Judgement::Ghost
     )
 }
 
@@ -162,85 +254,15 @@ fn cases_label<F: Scalar>(asked: &Asked<F>) -> String {
 
 fn counted_as(judgement: Judgement, judged: &[Judged]) -> JudgementCount {
     let of_kind = judged.iter().filter(|it| it.judgement == judgement);
-    let mut off: Vec<f64> = of_kind
-        .clone()
-        .filter_map(|it| it.off.map(f64::abs))
-        .collect();
+    // A silhouette that is left out is as far from what is answered as you like, and nobody sees it.
+    let wrong = of_kind.clone().filter(|it| it.judgement.is_wrong());
+    let mut off: Vec<f64> = wrong.filter_map(|it| it.off.map(f64::abs)).collect();
     off.sort_by(f64::total_cmp);
     JudgementCount {
         judgement,
         count: of_kind.count() as u64,
         median_off: off.get(off.len() / 2).copied(),
         most_off: off.last().copied(),
-    }
-}
-
-/// Some wrong answers: the farthest of each kind, and then the next ones.
-fn worst<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Vec<WrongAnswer>
-where
-    Case<F>: Into<AnyCase>,
-{
-    let all = judged.iter().enumerate();
-    let mut wrong: Vec<(usize, &Judged)> = all.filter(|(_, it)| it.judgement.is_wrong()).collect();
-    let size = |judged: &Judged| judged.off.map_or(0.0, f64::abs);
-    wrong.sort_by(|(_, a), (_, b)| {
-        let by_kind = a.judgement.cmp(&b.judgement);
-        by_kind.then(size(b).total_cmp(&size(a)))
-    });
-    // One of each kind first.
-    let mut seen = Vec::new();
-    let (first, others): (Vec<_>, Vec<_>) = wrong.into_iter().partition(|(_, judged)| {
-        let is_first = !seen.contains(&judged.judgement);
-        seen.push(judged.judgement);
-        is_first
-    });
-    let all = first.into_iter().chain(others).take(TOLD);
-    all.map(|(index, judged)| told(run, index, judged))
-        .collect()
-}
-
-fn told<F: Scalar>(run: &JudgedRun<F>, index: usize, judged: &Judged) -> WrongAnswer
-where
-    Case<F>: Into<AnyCase>,
-{
-    let answer = run.answers.in_words(index);
-    let off = match judged.off {
-        Some(off) if run.answers.are_of_points() => {
-            format!(", {} longest edges from the surface", short(off))
-        }
-        Some(off) if off < 0.0 => format!(", {} longest edges in front of it", short(-off)),
-        Some(off) => format!(", {} longest edges behind it", short(off)),
-        None => String::new(),
-    };
-    let Some(ray) = run.asked.rays().get(index) else {
-        return WrongAnswer {
-            index: index as u64,
-            judgement: judged.judgement,
-            text: format!("point {index}: answered {answer}{off}"),
-            commands: Vec::new(),
-        };
-    };
-    let nearest = judged.hit.as_ref().map(|it| it.faces[0]);
-    let truth = match (nearest, run.answers) {
-        (None, Answers::All(_)) => "the faces that are met are others".to_owned(),
-        (None, _) => "no face is hit".to_owned(),
-        (Some(face), Answers::All(_)) => format!("face {face} is met too"),
-        (Some(face), _) => format!("the nearest is face {face}"),
-    };
-    let named = match run.answers {
-        Answers::Nearest(all) => all[index].face,
-        _ => None,
-    };
-    let shown = nearest.or(named);
-    let shown = shown.filter(|face| (*face as usize) < run.mesh.triangles.len());
-    WrongAnswer {
-        index: index as u64,
-        judgement: judged.judgement,
-        text: format!("ray {index}: {truth}; answered {answer}{off}"),
-        commands: shown
-            .map(|face| explain_command(run.mesh, ray, face))
-            .into_iter()
-            .collect(),
     }
 }
 

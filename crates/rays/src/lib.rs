@@ -19,13 +19,15 @@ use hairline_report as report;
 use hairline_study::audit;
 
 // The floors, from the ground up: each module uses only those above it in this list.
-mod asked;
 mod single;
 
-mod blame;
+mod asked;
 mod made;
 mod plain;
 mod result;
+
+mod blame;
+mod told;
 
 mod found;
 mod judged;

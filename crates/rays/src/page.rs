@@ -2,9 +2,12 @@
 
 use crate::arith::ScalarName;
 use crate::asked::AnswerKind;
+use crate::blame::FEWEST;
 use crate::record::{group_digits, number_of};
 use crate::report::page::{Block, Cell, Head, Item, Page, Paged, Row, Table, Tone};
-use crate::result::{JudgementCount, LostHits, MissCount, RaysResult, short};
+use crate::result::{
+    JudgementCount, LostHits, MissCount, RaysResult, WithoutBoxes, WrongRays, short,
+};
 use hairline_scene::Judgement;
 
 /// How many wrong answers stand on a screen.
@@ -19,7 +22,8 @@ const BLAMED: f64 = 0.9;
 impl Paged for RaysResult {
     fn page(&self) -> Page {
         let wrong = self.wrong_count();
-        let mut blocks = vec![Block::text(self.blame())];
+        let mut blocks: Vec<Block> = self.blame().map(Block::text).into_iter().collect();
+        blocks.extend(self.wrong_rays.sentence().map(Block::text));
         blocks.extend(self.reading().map(Block::text));
         blocks.push(Block::Table(self.table()));
         let shown = self.counts.iter().filter(|it| 0 < it.count);
@@ -33,6 +37,11 @@ impl Paged for RaysResult {
         });
         let title_of_worst = "Wrong answers (all are counted from 0)";
         blocks.extend(Block::items(title_of_worst, SHOWN, items.collect()));
+        if (self.worst.len() as u64) < wrong {
+            blocks.push(Block::text(
+                "--format csv has every answer, with its judgement and the exact faces.",
+            ));
+        }
         Page {
             command: "rays",
             title: self.title(),
@@ -45,7 +54,11 @@ impl Paged for RaysResult {
 impl RaysResult {
     fn title(&self) -> String {
         let answers = number_of(self.asked, "answer", "answers");
+        let undefined = self.count(Judgement::NotDefined);
         let said = match self.wrong_count() {
+            0 if 0 < undefined => {
+                format!("{} of {answers} cannot be judged", group_digits(undefined))
+            }
             0 => format!("None of {answers} is wrong"),
             1 => format!("1 of {answers} is wrong"),
             wrong => format!("{} of {answers} are wrong", group_digits(wrong)),
@@ -56,23 +69,55 @@ impl RaysResult {
         }
     }
 
-    /// Where the hits are lost, as far as it can be told.
-    fn blame(&self) -> String {
+    /// Where the hits are lost, as far as it can be told; or whether points can be judged at all.
+    fn blame(&self) -> Option<String> {
         if let Some(shift) = self.shift {
-            return format!(
+            return Some(format!(
                 "The faces are numbered otherwise: with {shift:+} most wrong ones are right. Numbers count from 0 here, in the order of the \
                  file."
-            );
+            ));
         }
+        let has_wrong = 0 < self.wrong_count();
         match self.kind {
-            AnswerKind::Inside if self.wrong_count() == 0 => {
-                "Every point is on the side that was answered.".to_owned()
+            AnswerKind::Inside if 0 < self.count(Judgement::NotDefined) => {
+                Some("The surface is open, so only points on it can be judged: close it, or ask about hits.".to_owned())
             }
-            AnswerKind::Inside => {
-                "Their distances from the surface, below, tell how near a point must be to be taken for one on the other side.".to_owned()
+            AnswerKind::Inside if has_wrong => {
+                Some("\"Off\" is the distance from the surface: small ones are points that were taken to be on its other side; where they are \
+                     large, hits are lost or counted twice on the way.".to_owned())
             }
-            _ => self.lost.sentence(),
+            AnswerKind::Inside => None,
+            AnswerKind::Count => None,
+            _ if self.lost.count == 0 && has_wrong => None,
+            _ => Some(self.lost_hits()),
         }
+    }
+
+    fn lost_hits(&self) -> String {
+        let LostHits { count, .. } = self.lost;
+        let start = match count {
+            0 => return "No hit is lost.".to_owned(),
+            1 => "1 answer misses the exact hit: it names nothing, or another face.".to_owned(),
+            count => format!(
+                "{} answers miss the exact hit: they name nothing, or another face.",
+                group_digits(count)
+            ),
+        };
+        let reason = self.lost.reason(self.program.is_some());
+        let is_too_little = count.min(self.lost.found) < FEWEST as u64;
+        let reason = reason.unwrap_or_else(|| match self.wrong_rays.are_at_edges() {
+            _ if is_too_little => format!(
+                "{} found: too few of these or of those to tell who loses them.",
+                number_of(self.lost.found, "hit is", "hits are")
+            ),
+            true => "Their rays meet edges or vertices exactly, and no built-in test misses just these: does yours take u = 0 and v = 0 for \
+                     hits, in both neighbours?"
+                .to_owned(),
+            false => "No built-in triangle test and no slab test misses most of these and finds the others. If yours are others, look at \
+                      them; else at the tree, a transform, an end of the interval, or how faces are numbered."
+                .to_owned(),
+        });
+        format!("{start} {reason}")
     }
 
     /// How the numbers were read, if not as they are written.
@@ -105,33 +150,56 @@ impl RaysResult {
             AnswerKind::Inside => "how far from the surface, in longest edges of the face there",
             _ => "how far behind the exact point, in longest edges of the nearest face",
         };
-        let heads = vec![
-            Head::default(),
-            Head::of("answers"),
-            Head::of("median off").about(about),
-            Head::of("most off"),
-        ];
+        let shown = || self.counts.iter().filter(|it| 0 < it.count);
+        let has_distances = shown().any(|it| it.most_off.is_some());
+        let mut heads = vec![Head::default(), Head::of("answers")];
+        if has_distances {
+            heads.push(Head::of("median off").about(about));
+            heads.push(Head::of("most off"));
+        }
         let row = |it: &JudgementCount| {
             let is_wrong = it.judgement.is_wrong();
-            let cells = [
-                Cell::count(it.count).broken_if(is_wrong && 0 < it.count),
-                Cell::optional(it.median_off, short),
-                Cell::optional(it.most_off, short),
-            ];
+            let mut cells = vec![Cell::count(it.count).broken_if(is_wrong)];
+            if has_distances {
+                cells.push(Cell::optional(it.median_off, short));
+                cells.push(Cell::optional(it.most_off, short));
+            }
             Row::new(it.judgement.name(), cells)
         };
-        let shown = self.counts.iter().filter(|it| 0 < it.count);
-        Table::new(heads, shown.map(row).collect())
+        Table::new(heads, shown().map(row).collect())
+    }
+}
+
+impl WrongRays {
+    /// True if nearly all meet an edge or a vertex, or run in a plane.
+    fn are_at_edges(&self) -> bool {
+        let there = self.in_plane + self.at_edge;
+        let all = there + self.inside + self.nothing;
+        BLAMED * all as f64 <= there as f64
+    }
+
+    /// What the rays of wrong answers have in common.
+    fn sentence(&self) -> Option<String> {
+        let kinds = [
+            (self.in_plane, "run in the plane of a face that they meet"),
+            (self.at_edge, "meet an edge or a vertex exactly"),
+            (self.inside, "meet the inside of a face"),
+            (self.nothing, "meet nothing"),
+        ];
+        let there = kinds.into_iter().filter(|(count, _)| 0 < *count);
+        let words: Vec<String> = there
+            .map(|(count, what)| format!("{} {what}", group_digits(count)))
+            .collect();
+        if words.is_empty() {
+            return None;
+        }
+        Some(format!("Rays of the wrong answers: {}.", words.join(", ")))
     }
 }
 
 impl LostHits {
-    fn sentence(&self) -> String {
-        if self.count == 0 {
-            return "No hit is lost.".to_owned();
-        }
-        let lost = number_of(self.count, "exact hit is", "exact hits are");
-        let start = format!("{lost} lost: missed, or another face is answered.");
+    /// Who loses most of them, if a test or an end does.
+    fn reason(&self, is_plain_program: bool) -> Option<String> {
         let enough = BLAMED * self.count as f64;
         let of_ends = [
             (self.at_start, "start", "t_min"),
@@ -139,11 +207,17 @@ impl LostHits {
         ];
         for (count, end, name) in of_ends {
             if enough <= count as f64 {
-                return format!(
-                    "{start} They lie at the {end} of the ray's interval: look at how the program compares t with {name}, and at its \
+                return Some(format!(
+                    "They lie at the {end} of the ray's interval: look at how the program compares t with {name}, and at its \
                      offsets."
-                );
+                ));
             }
+        }
+        if let Some(without) = &self.without_boxes {
+            return Some(without.sentence());
+        }
+        if is_plain_program {
+            return Some("Every face was asked about, so the triangle test loses them.".to_owned());
         }
         let explained = |all: &[MissCount]| all.first().map_or(0, |it| it.explained) as f64;
         let by_kernels = explained(&self.missed_by_kernels);
@@ -152,32 +226,42 @@ impl LostHits {
         let box_tests = named(&self.missed_by_box_tests);
         let half = self.count as f64 / 2.0;
         if enough <= by_kernels && by_boxes <= by_kernels {
-            return format!(
-                "{start} The triangle test loses them: built-in kernels alone miss these on their faces, and hardly any other ({kernels})."
-            );
+            return Some(format!(
+                "The triangle test loses them: built-in kernels alone miss these on their faces, and hardly any other ({kernels})."
+            ));
         }
         // The boxes above those of the faces lose rays too.
         if half <= by_boxes && by_kernels < by_boxes {
-            return format!(
-                "{start} The box test loses them: built-in slab tests miss the boxes around their faces, far more often than those of faces \
+            return Some(format!(
+                "The box test loses them: built-in slab tests miss the boxes around their faces, far more often than those of faces \
                  that are found ({box_tests})."
-            );
+            ));
         }
-        let places =
-            "a tree, a box, a transform, an end of the interval, or how faces are numbered";
-        match (kernels.is_empty(), box_tests.is_empty()) {
-            (true, true) => format!(
-                "{start} No built-in kernel and no slab test misses just these, so look at {places}."
+        None
+    }
+}
+
+impl WithoutBoxes {
+    fn sentence(&self) -> String {
+        let WithoutBoxes { tried, lost } = *self;
+        let those = match tried {
+            1 => "the one".to_owned(),
+            tried => format!("{} of them", group_digits(tried)),
+        };
+        match lost {
+            0 => format!(
+                "Where every face is asked, none of {} is lost: the box test loses them.",
+                number_of(tried, "that was tried", "that were tried")
             ),
-            (false, true) => format!(
-                "{start} Built-in kernels alone explain so many of them: {kernels}. For the others look at {places}."
+            lost if lost == tried => format!(
+                "Where every face is asked, {those} that {} tried {} lost all the same: the triangle test loses them.",
+                if tried == 1 { "was" } else { "were" },
+                if tried == 1 { "is" } else { "are" },
             ),
-            (true, false) => format!(
-                "{start} Built-in slab tests explain so many of them: {box_tests}. For the others look at {places}."
-            ),
-            (false, false) => format!(
-                "{start} Built-in kernels alone explain so many of them: {kernels}; slab tests, on the boxes around the faces: \
-                 {box_tests}. For the others look at {places}."
+            lost => format!(
+                "Of {} that were tried the triangle test loses {}, where every face is asked; the box test loses the others.",
+                group_digits(tried),
+                group_digits(lost)
             ),
         }
     }
@@ -187,7 +271,10 @@ impl LostHits {
 fn named(all: &[MissCount]) -> String {
     let named = all.iter().take(NAMED);
     let words: Vec<String> = named
-        .map(|it| format!("{} {}", it.name, group_digits(it.explained)))
+        .map(|it| match &it.epsilon {
+            None => format!("{} {}", it.name, group_digits(it.explained)),
+            Some(epsilon) => format!("{} ({epsilon}) {}", it.name, group_digits(it.explained)),
+        })
         .collect();
     words.join(", ")
 }
@@ -202,18 +289,22 @@ fn meaning(kind: AnswerKind, judgement: Judgement) -> String {
         (AnswerKind::All, Judgement::Right) => "every face that is met, in order",
         (AnswerKind::Any, Judgement::Ghost) => "a hit where nothing is",
         (AnswerKind::Any, Judgement::Right) => "a hit where one is, or none where none is",
-        (AnswerKind::Count, Judgement::Tie) => "every face that is met counts: two at an edge",
+        (AnswerKind::Count, Judgement::Tie) => {
+            "some points count once for each of their faces: two at an edge"
+        }
         (AnswerKind::Count, Judgement::Right) => {
             "every point at which the surface is met counts once"
         }
-        (AnswerKind::Count, Judgement::Neighbour) => "silhouettes are left out, which nobody sees",
+        (AnswerKind::Count, Judgement::Neighbour) => {
+            "a silhouette that the ray touches is not counted, or one that it misses by a hair is: nobody sees it"
+        }
         (AnswerKind::Inside, Judgement::Tie) => "on the surface, where every answer is right",
         (AnswerKind::Inside, Judgement::Right) => "the exact side",
         (AnswerKind::Nearest, Judgement::Right) => "the nearest face, or no hit",
         (AnswerKind::Nearest, Judgement::Tie) => "one of several nearest faces",
         (AnswerKind::Nearest, Judgement::Ghost) => "a face elsewhere, that the ray does not meet",
         (AnswerKind::Nearest | AnswerKind::All, Judgement::Neighbour) => {
-            "a face that the ray misses by a hair, or a silhouette left out: nobody sees it"
+            "a face that the ray misses by a hair, or a silhouette that the program left out: nobody sees it"
         }
         (_, judgement) => return begun_small(judgement.about()),
     };

@@ -6,9 +6,11 @@ use crate::audit::Trials;
 use crate::files::mesh::Mesh;
 use crate::record::{Comparable, NamedRate, NamedValue, Rate, Study, group_digits, number_of};
 use crate::report::JunitCase;
+use crate::single::joined;
 use hairline_core::printable::printable;
 use hairline_scene::Judgement;
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// The answers of a program about a mesh, judged.
@@ -40,8 +42,48 @@ pub struct RaysResult {
     pub shift: Option<i64>,
     /// The hits that are lost, and who loses them too.
     pub lost: LostHits,
+    /// How the rays of wrong answers meet the mesh.
+    #[serde(default)]
+    pub wrong_rays: WrongRays,
     /// The worst answers.
     pub worst: Vec<WrongAnswer>,
+    /// How many right answers name a face, or tell of a hit that there is.
+    #[serde(skip)]
+    pub right_hits: u64,
+    /// Every answer, for CSV. A record has the counts alone.
+    #[serde(skip)]
+    pub each: Vec<EachAnswer>,
+}
+
+/// How the rays of wrong answers meet the mesh.
+#[apply(part!)]
+#[derive(Default)]
+pub struct WrongRays {
+    /// Those that run in the plane of a face that they meet.
+    pub in_plane: u64,
+    /// Of the others those that meet an edge or a vertex, exactly.
+    pub at_edge: u64,
+    /// Of the others those that meet the inside of a face.
+    pub inside: u64,
+    /// Those that meet nothing.
+    pub nothing: u64,
+}
+
+/// An answer with its judgement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EachAnswer {
+    /// The judgement.
+    pub judgement: Judgement,
+    /// The exact nearest faces; of all hits those of the first that is lost.
+    pub faces: Vec<u32>,
+    /// Their t, as the nearest double.
+    pub t: Option<f64>,
+    /// The answer: faces, a number or a word.
+    pub answered: String,
+    /// Its t, of a nearest hit that has one.
+    pub answered_t: Option<f64>,
+    /// How far it is off, in longest edges.
+    pub off: Option<f64>,
 }
 
 /// How often a judgement was made.
@@ -64,14 +106,30 @@ pub struct JudgementCount {
 pub struct LostHits {
     /// How many.
     pub count: u64,
-    /// How many of them lie at the start of the ray's interval, as near as anybody sees.
+    /// How many hits are found.
+    #[serde(default)]
+    pub found: u64,
+    /// How many of the lost ones lie at the start of the ray's interval, as near as anybody sees.
     pub at_start: u64,
     /// How many at its end.
     pub at_end: u64,
-    /// The built-in kernels that miss some of them too, by themselves, on all faces of the hit: those first that explain most.
+    /// Of a plain program that has boxes: what it loses without them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub without_boxes: Option<WithoutBoxes>,
+    /// The built-in kernels that miss some of them too, by themselves, on all faces of the hit: those first that explain most. Each
+    /// with the epsilon of its that explains most.
     pub missed_by_kernels: Vec<MissCount>,
     /// The built-in slab tests that miss some of them too, on the boxes of all faces of the hit: those first that explain most.
     pub missed_by_box_tests: Vec<MissCount>,
+}
+
+/// What a plain program loses if it asks about every face.
+#[apply(part!)]
+pub struct WithoutBoxes {
+    /// So many of the rays whose hits are lost were tried.
+    pub tried: u64,
+    /// So many of these are lost without boxes too.
+    pub lost: u64,
 }
 
 /// How many hits a kernel or a slab test misses.
@@ -79,6 +137,9 @@ pub struct LostHits {
 pub struct MissCount {
     /// Its name.
     pub name: String,
+    /// Its epsilon, if it is not one of its own: `parallel=1e-8`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub epsilon: Option<String>,
     /// How many of the hits that the program lost.
     pub count: u64,
     /// About how many of those that the program found.
@@ -125,6 +186,25 @@ impl RaysResult {
 }
 
 impl RaysResult {
+    /// A line an answer, beside the truth.
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(
+            out,
+            "number,judgement,exact_faces,exact_t,answered,answered_t,off_in_edges"
+        )?;
+        let number = |it: Option<f64>| it.map_or(String::new(), |it| format!("{it:?}"));
+        for (index, it) in self.each.iter().enumerate() {
+            let judgement = it.judgement.name().replace(',', ":");
+            let (faces, answered) = (joined(&it.faces), &it.answered);
+            let [t, answered_t, off] = [it.t, it.answered_t, it.off].map(number);
+            writeln!(
+                out,
+                "{index},{judgement},{faces},{t},{answered},{answered_t},{off}"
+            )?;
+        }
+        Ok(())
+    }
+
     /// As tests for JUnit, one a judgement that is wrong.
     pub fn suites(&self) -> BTreeMap<String, BTreeMap<(String, String), JunitCase>> {
         let wrong = self.counts.iter().filter(|it| it.judgement.is_wrong());
@@ -161,15 +241,26 @@ impl Comparable for RaysResult {
     }
 
     fn cases(&self) -> String {
-        self.cases.clone()
+        let RaysResult {
+            kind,
+            cases,
+            mesh,
+            scalar,
+            ..
+        } = self;
+        format!("{kind} of {cases}, at {mesh}, in {scalar}")
     }
 
     fn counted(&self) -> Vec<NamedRate> {
         let wrong = self.counts.iter().filter(|it| it.judgement.is_wrong());
+        let command = |judgement: Judgement| {
+            let worst = self.worst.iter().find(|it| it.judgement == judgement);
+            worst.and_then(|it| it.commands.first().cloned())
+        };
         let named = |it: &JudgementCount| NamedRate {
             what: it.judgement.to_string(),
             rate: Rate::new(Trials::independent(it.count, self.asked), false),
-            command: None,
+            command: command(it.judgement),
         };
         wrong.map(named).collect()
     }

@@ -23,8 +23,8 @@ pub struct JudgedRun<'a, F: Scalar> {
     pub asked: &'a Asked<F>,
     /// As many answers.
     pub answers: &'a Answers,
-    /// Who answered, if it is not a file of answers: the kernel with its box test.
-    pub program: Option<String>,
+    /// Who answered, if hairline ran it.
+    pub program: Option<&'a PlainProgram>,
 }
 
 /// A scalar in which a mesh is asked about.

@@ -45,6 +45,19 @@ where
     format!("hairline explain {}", quoted(&bare_case(case)))
 }
 
+/// Faces in words, so many at most.
+pub fn faces_in_words(faces: &[u32], most: usize) -> String {
+    let shown = faces.iter().take(most);
+    let mut words: Vec<String> = shown.map(u32::to_string).collect();
+    if most < faces.len() {
+        words.push(format!("{} more", faces.len() - most));
+    }
+    match faces.len() {
+        1 => format!("face {}", words[0]),
+        _ => format!("faces {}", words.join(", ")),
+    }
+}
+
 /// Numbers of faces, one after the other.
 pub fn joined(faces: &[u32]) -> String {
     let words: Vec<String> = faces.iter().map(u32::to_string).collect();

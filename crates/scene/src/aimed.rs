@@ -50,6 +50,9 @@ impl Error for NoTargets {}
 /// Origins are farther from the middle of the mesh than its box, by at most this factor.
 const AROUND: f64 = 3.0;
 
+/// Origins in the plane of a face are up to 17 of its edges away, each of which is at most as long as the box on an axis.
+const IN_PLANE: f64 = 34.0;
+
 /// Directions are multiples of this share of the mesh's size, so that few are rounded.
 const STEPS: i64 = 64;
 
@@ -82,8 +85,8 @@ impl<F: Float> Targets<F> {
         let farthest = middle
             .into_iter()
             .fold(0.0, |most: f64, x| most.max(x.abs()));
-        // Room for a direction from one side of it to the other.
-        if !F::from_f64(2.0 * (farthest + AROUND * half)).is_finite() {
+        // Room for a direction from the farthest origin to the other side.
+        if !F::from_f64(2.0 * (farthest + IN_PLANE * half)).is_finite() {
             return Err(NoTargets::TooLarge);
         }
         Ok(Targets {

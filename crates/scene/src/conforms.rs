@@ -1,12 +1,21 @@
 //! A program held to the truth from its own tests: rays are made, the program answers, and what is wrong is told.
 
-use crate::aimed::{RayKind, Targets};
+use crate::aimed::{NoTargets, RayKind, Targets};
 use crate::judge::{Answer, Judged};
 use crate::ray::Ray;
 use crate::scene::Scene;
 use hairline_core::Float;
 use std::error::Error;
 use std::fmt;
+
+/// Why a program does not conform.
+#[derive(Clone, Debug)]
+pub enum NotConforming<F> {
+    /// It was not asked, since no rays can be made at this scene.
+    NotAsked(NoTargets),
+    /// Some answers are wrong.
+    Wrong(WrongAnswers<F>),
+}
 
 /// The wrong answers of a program.
 #[derive(Clone, Debug)]
@@ -32,7 +41,7 @@ pub struct WrongAnswer<F> {
 
 impl<F: Float> Scene<F> {
     /// Asks a program for its nearest hits of so many rays at this scene, of every [`RayKind`] in turn, and judges them. An error has
-    /// the wrong answers. Without a face of a size nothing is asked.
+    /// the wrong answers, or says why no rays can be made.
     ///
     /// ```
     /// use hairline_scene::{Answer, Scene};
@@ -41,19 +50,16 @@ impl<F: Float> Scene<F> {
     /// let tetrahedron = Scene::new(&vertices, &[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).unwrap();
     /// // A program that never finds anything.
     /// let nothing = |_: &_| Answer { face: None, t: None };
-    /// let wrong = tetrahedron.conforms(600, 1, nothing).unwrap_err();
-    /// assert!(wrong.count > 50);
-    /// assert!(wrong.to_string().contains("lost"));
+    /// let error = tetrahedron.conforms(600, 1, nothing).unwrap_err();
+    /// assert!(error.to_string().contains("lost"));
     /// ```
     pub fn conforms(
         &self,
         count: u64,
         seed: u64,
         mut answer: impl FnMut(&Ray<F>) -> Answer,
-    ) -> Result<(), WrongAnswers<F>> {
-        let Ok(targets) = Targets::new(self.in_order_of_faces()) else {
-            return Ok(());
-        };
+    ) -> Result<(), NotConforming<F>> {
+        let targets = Targets::new(self.in_order_of_faces()).map_err(NotConforming::NotAsked)?;
         let mut worst: Option<WrongAnswer<F>> = None;
         let mut wrong = 0;
         for ray in targets.rays(&RayKind::ALL, count, seed) {
@@ -82,11 +88,11 @@ impl<F: Float> Scene<F> {
         }
         match worst {
             None => Ok(()),
-            Some(worst) => Err(WrongAnswers {
+            Some(worst) => Err(NotConforming::Wrong(WrongAnswers {
                 asked: count,
                 count: wrong,
                 worst,
-            }),
+            })),
         }
     }
 }
@@ -119,4 +125,13 @@ impl<F: Float> fmt::Display for WrongAnswers<F> {
     }
 }
 
-impl<F: Float> Error for WrongAnswers<F> {}
+impl<F: Float> fmt::Display for NotConforming<F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NotConforming::NotAsked(why) => write!(f, "nothing was asked: {why}"),
+            NotConforming::Wrong(wrong) => wrong.fmt(f),
+        }
+    }
+}
+
+impl<F: Float> Error for NotConforming<F> {}

@@ -159,7 +159,9 @@ impl<F: Float> Scene<F> {
         Ok(match is_visible {
             false => (right, behind),
             // A ray in the face's plane has other points of the face.
-            true if self.is_at(ray, nearest.faces[0], Some(t))? => (Judgement::Neighbour, behind),
+            true if self.is_at(ray, answer.face.unwrap_or(nearest.faces[0]), Some(t))? => {
+                (Judgement::Neighbour, behind)
+            }
             true => (Judgement::WrongT, behind),
         })
     }
@@ -203,9 +205,4 @@ impl<F: Float> Scene<F> {
         let [first, last] = values.t;
         Ok((first - hair..=last + hair).contains(&t))
     }
-}
-
-/// The length of a direction, in floats.
-fn length<F: Float>(direction: [F; 3]) -> f64 {
-    glam::DVec3::from(direction.map(F::to_f64)).length()
 }

@@ -70,6 +70,8 @@ mod placed;
 mod instances;
 mod scene;
 
+mod nearby;
+
 mod passage;
 mod values;
 
@@ -81,7 +83,7 @@ mod conforms;
 pub use aimed::{NoTargets, RayKind, Targets};
 pub use bounds::Bounds;
 pub use closed::Closed;
-pub use conforms::{WrongAnswer, WrongAnswers};
+pub use conforms::{NotConforming, WrongAnswer, WrongAnswers};
 pub use define::{DefinedHit, define, define_instances, nearest_of};
 pub use hairline_core::case::Matrix;
 pub use instance::{Instance, InstanceError, PlacedFace, WrongInstance};

@@ -189,6 +189,16 @@ impl<F: Float> Scene<F> {
         self.faces.len() as u32
     }
 
+    /// A node of the tree; there is a first one if there is a face.
+    pub(crate) fn node(&self, place: usize) -> &Node {
+        &self.nodes[place]
+    }
+
+    /// Boxes of the tree are those of coordinates times 2 to this power.
+    pub(crate) fn exponent(&self) -> i32 {
+        self.exponent
+    }
+
     pub(crate) fn face_at(&self, place: u32) -> u32 {
         self.faces[place as usize]
     }

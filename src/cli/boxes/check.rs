@@ -3,7 +3,7 @@
 use super::audit::RunArguments;
 use crate::cli::exit::{Failure, Status};
 use crate::cli::known::{Blessing, KnownCounts, KnownSubject};
-use crate::report::Format;
+use crate::expect::RecordComparison;
 use clap::Args;
 
 /// Which slab tests, on which boxes, and which file holds what is known.
@@ -30,7 +30,7 @@ const SUBJECT: KnownSubject = KnownSubject {
 
 /// Runs the command.
 pub fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
-    let outputs = arguments.run.output.pairs(Format::OF_PAGE)?;
+    let outputs = arguments.run.output.pairs(RecordComparison::FORMATS)?;
     let known = KnownCounts::open(&SUBJECT, &arguments.known, &arguments.blessing)?;
     let result = arguments.run.record()?.result;
     known.compare(result, &arguments.run.output, outputs)

@@ -1,6 +1,6 @@
 //! The answers of a program in a file: one a line in the order of the rays, or of all hits one hit a line.
 
-use super::read::{LONGEST_LINE, is_head, json_number, lines, words};
+use super::read::{LONGEST_LINE, is_head, json_number, lines, without_mark, words};
 use crate::cli::exit::Failure;
 use crate::cli::input::open;
 use crate::files::InputError;
@@ -12,6 +12,9 @@ use std::io::BufReader;
 
 /// The words of programs for no face: a signed and an unsigned -1.
 const NO_FACE: [&str; 6] = ["-1", "4294967295", "none", "null", "miss", ""];
+
+/// Names of the one column of a file, of which some are answers too.
+const HEADS: [&str; 3] = ["hit", "count", "inside"];
 
 /// The words for yes and for no.
 const YES: [&str; 3] = ["1", "true", "hit"];
@@ -45,16 +48,34 @@ fn one_a_line<T>(
     questions: &str,
     read: impl Fn(&str) -> Result<T, String>,
 ) -> Result<Vec<T>, Failure> {
-    let is_head = |line: &str| is_head(line) && read(line).is_err();
-    let answers = lines(file, "answers", is_head, &read)?;
+    let is_only_a_head = |line: &str| is_head(line) && read(line).is_err();
+    let mut answers = lines(file, "answers", is_only_a_head, &read)?;
+    // One too many: then a first line that may be both is a head.
+    if answers.len() == asked + 1 && begins_with_head(file)? {
+        answers.remove(0);
+    }
     if answers.len() != asked {
         let message = format!(
-            "{} answers to {questions}: expected one a line, in their order",
+            "{} answers to {questions}: expected one a line, in their order (empty lines do not count: a miss is -1, or 0 hits)",
             answers.len()
         );
         return Err(InputError::of(file, message).into());
     }
     Ok(answers)
+}
+
+/// True if the first line of a file is a name of its column.
+fn begins_with_head(file: &str) -> Result<bool, Failure> {
+    if file == "-" {
+        return Ok(false);
+    }
+    let mut lines = TextLines::new(BufReader::new(open(file)?), file, LONGEST_LINE);
+    let Some(line) = lines.next() else {
+        return Ok(false);
+    };
+    let (_, text) = line?;
+    let head = without_mark(&text).to_ascii_lowercase();
+    Ok(HEADS.contains(&head.as_str()))
 }
 
 /// A face's number as a program wrote it. One more than there are is what a program says that counts from 1.
@@ -73,9 +94,21 @@ fn face(word: &str, faces: usize) -> Result<u32, String> {
     }
 }
 
+fn is_no_face(word: &str) -> bool {
+    NO_FACE.contains(&word.to_ascii_lowercase().as_str())
+}
+
+/// A face among all hits of a ray, where a miss has no line.
+fn named_face(word: &str, faces: usize) -> Result<u32, String> {
+    if is_no_face(word) {
+        return Err("a miss has no line here: only hits have, as ray,face,t".to_owned());
+    }
+    face(word, faces).map_err(|message| format!("{message}; a line is ray,face,t"))
+}
+
 fn nearest(line: &str, faces: usize) -> Result<Answer, String> {
     let answer = |word: &str, t: Option<&str>| {
-        if NO_FACE.contains(&word) {
+        if is_no_face(word) {
             return Ok(Answer {
                 face: None,
                 t: None,
@@ -95,7 +128,7 @@ fn nearest(line: &str, faces: usize) -> Result<Answer, String> {
         [face] => answer(face, None),
         [face, t] => answer(face, Some(t)),
         ref words => Err(format!(
-            "expected a face and its t, as 12,0.5, found {} words",
+            "expected a face and its t, as 12,0.5, found {} words; with --answered all a line is ray,face,t",
             words.len()
         )),
     }
@@ -155,7 +188,7 @@ fn all(file: &str, asked: usize, faces: usize) -> Result<Vec<Vec<NamedHit>>, Fai
     let reader = BufReader::new(open(file)?);
     for line in TextLines::new(reader, file, LONGEST_LINE) {
         let (number, text) = line?;
-        let text = text.trim();
+        let text = without_mark(&text);
         if text.starts_with('#') || number == 1 && is_head(text) {
             continue;
         }
@@ -180,7 +213,7 @@ fn hit(line: &str, asked: usize, faces: usize) -> Result<HitOfRay, String> {
                 format!("expected a ray's number, from 0 and below {asked}, first")
             })?,
             named: NamedHit {
-                face: face(word, faces)?,
+                face: named_face(word, faces)?,
                 t: t.filter(|t| !t.is_empty()).map(json_number).transpose()?,
             },
         })

@@ -16,15 +16,15 @@ pub struct ProgramArguments {
     kernel: Option<String>,
 
     /// Its epsilons, as `audit` takes them
-    #[arg(long, value_name = "GATE=VALUE,...", requires = "kernel", allow_hyphen_values = true, help_heading = PROGRAM)]
+    #[arg(long, value_name = "GATE=VALUE,...", requires = "kernel", conflicts_with = "answers", allow_hyphen_values = true, help_heading = PROGRAM)]
     epsilon: Option<String>,
 
     /// The slab test of its boxes (`hairline boxes list tests`) [default: none, every face is asked]
-    #[arg(long, value_name = "NAME", requires = "kernel", help_heading = PROGRAM)]
+    #[arg(long, value_name = "NAME", requires = "kernel", conflicts_with = "answers", help_heading = PROGRAM)]
     box_test: Option<String>,
 
     /// An epsilon of the slab test, as padding=-1e-6
-    #[arg(long, value_name = "GATE=VALUE", value_delimiter = ',', requires = "box_test", allow_hyphen_values = true, help_heading = PROGRAM)]
+    #[arg(long, value_name = "GATE=VALUE", value_delimiter = ',', requires = "box_test", conflicts_with = "answers", allow_hyphen_values = true, help_heading = PROGRAM)]
     box_epsilon: Vec<String>,
 }
 

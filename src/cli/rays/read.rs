@@ -18,9 +18,13 @@ const RAY: &str = "origin and direction as six numbers, or eight with t_min and 
 
 /// The rays of a file. An error names the line and what is wrong in it.
 pub(super) fn rays<F: Scalar>(file: &str) -> Result<Vec<Ray<F>>, Failure> {
-    let read = |line: &str| match line.starts_with('{') {
-        true => ray_of_json(line),
-        false => ray_of_numbers(&words(line)),
+    let read = |line: &str| match line.chars().next() {
+        Some('{') => ray_of_json(line),
+        Some('[') => Err(
+            "expected a ray a line, not an array: {\"origin\":[0,0,5],\"direction\":[0,0,-1]}"
+                .to_owned(),
+        ),
+        _ => ray_of_numbers(&words(line)),
     };
     lines(file, "rays", is_head, read)
 }
@@ -52,7 +56,7 @@ pub(super) fn lines<T>(
     let reader = BufReader::new(open(file)?);
     for line in TextLines::new(reader, file, LONGEST_LINE) {
         let (number, text) = line?;
-        let text = text.trim();
+        let text = without_mark(&text);
         if text.starts_with('#') || number == 1 && is_head(text) {
             continue;
         }
@@ -63,6 +67,11 @@ pub(super) fn lines<T>(
         return Err(InputError::of(file, format!("there are no {what} in it")).into());
     }
     Ok(all)
+}
+
+/// A line without spaces around it, and without the byte order mark that some editors begin a file with.
+pub(super) fn without_mark(line: &str) -> &str {
+    line.trim_start_matches('\u{feff}').trim()
 }
 
 /// True of a line of names: nothing that stands for a number.

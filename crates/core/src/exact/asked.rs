@@ -98,20 +98,23 @@ impl<F: Float, N: Number + From<F>> PreparedTriangle<F, N> {
                     .map(|x| x.and_then(|x| x.to_f64()).expect("of a crossing"))
             }
         };
-        let most = F::infinity().offset_ulps(-1);
-        let ends = [t_min, t_max].map(|end| clamped(end, -most, most));
         let is_front = crossing.facing == Facing::Front;
-        Some(Hit::within(ends, rounded.map(F::from_f64), is_front))
+        Some(Hit::within(
+            [t_min, t_max],
+            rounded.map(F::from_f64),
+            is_front,
+        ))
     }
 }
 
 impl<F: Float> Hit<F> {
-    /// From values that were rounded: t stays between the ends, and the point in the triangle.
+    /// From values that were rounded: t stays between the ends and finite, and the point in the triangle.
     #[inline(always)]
     fn within([t_min, t_max]: [F; 2], [t, u, v]: [F; 3], is_front: bool) -> Self {
         let u = clamped(u, F::zero(), F::one());
+        let largest = F::infinity().offset_ulps(-1);
         Hit {
-            t: clamped(t, t_min, t_max),
+            t: clamped(clamped(t, -largest, largest), t_min, t_max),
             u,
             v: clamped(v, F::zero(), F::one() - u),
             is_front,

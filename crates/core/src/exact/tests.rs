@@ -273,3 +273,20 @@ fn what_is_not_finite_is_a_miss() {
     assert!(triangle.hit(&ray, 1.0, 1.0).is_some());
     assert!(triangle.hit(&ray, f64::NEG_INFINITY, f64::MAX).is_some());
 }
+
+#[test]
+fn t_beyond_the_largest_float_is_told_as_that() {
+    let [far, size, d] = [2f32.powi(100), 1e30, -(2f32.powi(-28))];
+    let vectors = [
+        [2.5e29, 2.5e29, 2f32.powi(70)],
+        [0.0, 0.0, d],
+        [0.0, 0.0, -far],
+        [size, 0.0, -far],
+        [0.0, size, -far],
+    ];
+    let (ray, triangle) = prepared::<f32, f64>(vectors);
+    let hit = triangle
+        .hit_with(&ray, 0.0, f32::INFINITY, Edges::Once)
+        .unwrap();
+    assert_eq!(hit.t, f32::MAX);
+}

@@ -1,8 +1,8 @@
 //! How far an answer is off, in floats: these distances name a judgement and decide no hit.
 
-use super::{Judged, Judgement, VISIBLE, length};
+use super::{Judged, Judgement, VISIBLE};
 use crate::bounds::Bounds;
-use crate::distance::{distance_to, longest_edge};
+use crate::distance::{distance_to, length, longest_edge, normal, of_size_1};
 use crate::ray::{InvalidRay, Ray};
 use crate::scene::{Nearest, Scene};
 use glam::DVec3;
@@ -77,11 +77,11 @@ impl<F: Float> Scene<F> {
         let Some(place) = self.place_of(face) else {
             return f64::NAN;
         };
-        let [a, b, c] = self.triangle_at(place).map(DVec3::from);
+        let triangle = self.triangle_at(place);
         let origin = DVec3::from(ray.origin.map(F::to_f64));
         let direction = DVec3::from(ray.direction.map(F::to_f64));
-        let normal = (b - a).cross(c - a);
-        (a - origin).dot(normal) / direction.dot(normal)
+        let normal = normal(&triangle);
+        (DVec3::from(triangle[0]) - origin).dot(normal) / direction.dot(normal)
     }
 
     /// The length of a face's longest edge; 0 if there is no such face.
@@ -92,7 +92,7 @@ impl<F: Float> Scene<F> {
 
     /// The step of t that is too short to be seen at a face.
     pub(super) fn hair(&self, ray: &Ray<F>, face: u32) -> f64 {
-        VISIBLE * self.longest_edge_of(face) / length(ray.direction)
+        VISIBLE * self.longest_edge_of(face) / length_of(ray)
     }
 
     /// True if a t is so near to a hit that nobody sees the difference.
@@ -104,7 +104,7 @@ impl<F: Float> Scene<F> {
     /// How many longest edges of the nearest faces the ray covers while t grows by 1.
     pub(super) fn edges_to_a_t(&self, ray: &Ray<F>, nearest: &Nearest) -> f64 {
         let edges = nearest.faces.iter().map(|face| self.longest_edge_of(*face));
-        length(ray.direction) / edges.fold(0.0, f64::max)
+        length_of(ray) / edges.fold(0.0, f64::max)
     }
 
     /// How far the point at t lies behind the nearest one, in longest edges of the nearest face; none if that is no number.
@@ -129,29 +129,27 @@ impl<F: Float> Scene<F> {
         Ok(Some(behind).filter(|behind| behind.is_finite()))
     }
 
-    /// The distance of a point from the surface, in longest edges of the face there. None without a face.
-    pub(super) fn distance_in_edges(&self, point: [F; 3]) -> Option<f64> {
-        let point = point.map(F::to_f64);
-        let triangles = (0..self.face_count()).map(|place| self.triangle_at(place));
-        let distances = triangles.map(|triangle| {
-            let distance = distance_to(&triangle, point);
-            (distance, distance / longest_edge(&triangle))
-        });
-        let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
-        nearest.map(|(_, in_edges)| in_edges)
-    }
-
-    /// True if a ray that meets no face passes one by a hair. Every face is looked at.
+    /// True if a ray that meets no face passes one by a hair.
     pub(super) fn passes_by_a_hair(&self, ray: &Ray<F>) -> bool {
-        let mut faces = (0..self.face_count()).map(|place| self.face_at(place));
-        faces.any(|face| self.is_missed_by_a_hair(ray, face, None, f64::INFINITY))
+        let Ok(checked) = ray.checked() else {
+            return false;
+        };
+        self.is_any_near(&checked, VISIBLE, |place| {
+            self.is_missed_by_a_hair(ray, self.face_at(place), None, f64::INFINITY)
+        })
     }
+}
+
+/// The length of a ray's direction, in floats.
+fn length_of<F: Float>(ray: &Ray<F>) -> f64 {
+    length(DVec3::from(ray.direction.map(F::to_f64)))
 }
 
 /// The ray, moved aside.
 fn moved<F: Float>(ray: &Ray<F>, distance: f64, angle: f64) -> Ray<F> {
     let direction = DVec3::from(ray.direction.map(F::to_f64));
-    let (one, other) = direction.normalize_or(DVec3::X).any_orthonormal_pair();
+    let direction = of_size_1(direction).normalize_or(DVec3::X);
+    let (one, other) = direction.any_orthonormal_pair();
     let step = distance * (angle.cos() * one + angle.sin() * other);
     let origin = DVec3::from(ray.origin.map(F::to_f64)) + step;
     Ray {

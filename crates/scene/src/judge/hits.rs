@@ -83,10 +83,17 @@ impl<F: Float> Scene<F> {
         if faces.len() < named.len() {
             kinds.insert(Judgement::Twice);
         }
+        let met: BTreeSet<u32> = hits.iter().flat_map(|hit| hit.faces.clone()).collect();
         let mut lost = None;
         for (passage, there) in passages.iter().zip(&there) {
-            kinds.insert(judgement_of(passage, there));
-            if lost.is_none() && judgement_of(passage, there) == Judgement::Lost {
+            let on_interval = passage
+                .faces
+                .iter()
+                .filter(|face| met.contains(face))
+                .count();
+            let judgement = judgement_of(passage, there, on_interval);
+            kinds.insert(judgement);
+            if lost.is_none() && judgement == Judgement::Lost {
                 lost = Some(Nearest {
                     t: passage.from,
                     faces: passage.faces.clone(),
@@ -152,8 +159,8 @@ impl<F: Float> Scene<F> {
         })
     }
 
-    /// Judges the number of hits that a program counted: of points, or of faces, where one of two at an edge counts too. Silhouettes
-    /// may be left out. An error if the ray means nothing.
+    /// Judges the number of hits that a program counted. Each point at which the ray meets the surface counts at least once, and at
+    /// most once for each of the faces there. Silhouettes may be left out. An error if the ray means nothing.
     pub fn judge_count(&self, ray: &Ray<F>, count: u64) -> Result<Judged, InvalidRay> {
         let judged = Judged::new(self.of_count(ray, count)?, self.nearest(ray)?, None);
         self.or_neighbour(ray, judged, |beside| self.of_count(beside, count))
@@ -167,23 +174,23 @@ impl<F: Float> Scene<F> {
         let faces: u64 = hits.iter().map(|hit| hit.faces.len() as u64).sum();
         Ok(match count {
             _ if count == points => Judgement::Right,
-            _ if count == faces => Judgement::Tie,
-            _ if count < seen => Judgement::TooFew,
-            _ if count < points => Judgement::Neighbour,
-            _ => Judgement::TooMany,
+            _ if faces < count => Judgement::TooMany,
+            _ if points < count => Judgement::Tie,
+            _ if seen <= count => Judgement::Neighbour,
+            _ => Judgement::TooFew,
         })
     }
 }
 
-/// The judgement of what was named in a passage.
-fn judgement_of(passage: &Passage, there: &NamedThere) -> Judgement {
+/// The judgement of what was named in a passage, so many of whose faces the ray meets on its interval.
+fn judgement_of(passage: &Passage, there: &NamedThere, on_interval: usize) -> Judgement {
     let named = there.met + there.by_a_hair;
     match named {
         0 if passage.is_silhouette => Judgement::Neighbour,
         0 => Judgement::Lost,
         // Where the ray meets one face only, its neighbour is a hit too many.
         _ if 1 < named && 0 < there.by_a_hair && !passage.is_silhouette => Judgement::Twice,
-        _ if there.met < passage.faces.len() => Judgement::Tie,
+        _ if there.met < on_interval => Judgement::Tie,
         _ => Judgement::Right,
     }
 }

@@ -1,5 +1,6 @@
 //! Answers of other programs, judged.
 
+use hairline_core::case::Draw;
 use hairline_scene::{Answer, Judgement, Ray, Scene};
 
 /// Two parallel squares of two faces each: z = 0 with the diagonal from (0, 0) to (1, 1), and z = -2.
@@ -160,4 +161,96 @@ fn a_face_just_behind_the_nearest_one_is_a_neighbour() {
     };
     assert_eq!(judged(1e-12), Judgement::Neighbour);
     assert_eq!(judged(0.125), Judgement::Farther);
+}
+
+#[test]
+fn a_point_of_any_nearest_face_is_no_wrong_one() {
+    // Two triangles in a plane, the ray in it: it runs in the one to x = 1, and in the other to x = 2.
+    let vertices = [
+        [0.0; 3],
+        [1.0, -0.5, 0.0],
+        [1.0, 0.5, 0.0],
+        [2.0, -1.0, 0.0],
+        [2.0, 1.0, 0.0],
+    ];
+    let ray = Ray::new([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+    for faces in [[[0, 1, 2], [0, 3, 4]], [[0, 3, 4], [0, 1, 2]]] {
+        let scene = Scene::<f64>::new(&vertices, &faces).unwrap();
+        let longer = faces.iter().position(|face| face[1] == 3).unwrap() as u32;
+        for (face, judgement) in [
+            (longer, Judgement::Neighbour),
+            (1 - longer, Judgement::WrongT),
+        ] {
+            let answer = Answer {
+                face: Some(face),
+                t: Some(2.8),
+            };
+            assert_eq!(scene.judge(&ray, &answer).unwrap().judgement, judgement);
+        }
+    }
+}
+
+/// A number times 2 to a power.
+fn times_two_to(x: f64, power: i32) -> f64 {
+    hairline_core::arith::scale_by_power_of_two(x, power)
+}
+
+#[test]
+fn judgements_do_not_depend_on_the_unit_of_length_or_of_t() {
+    let powers = [-1000, -400, -270, 270, 400, 450, 900];
+    let kinds = [
+        Some((0, 0.0)),
+        Some((0, 1e-5)),
+        Some((0, 0.01)),
+        Some((1, 0.0)),
+        Some((2, 0.3)),
+        None,
+    ];
+    for index in 0..200 {
+        let draw = &mut Draw::new("judged-scales", 1, index);
+        let mut point = || [(); 3].map(|()| draw.integer(-999, 999) as f64 / 256.0);
+        let vertices: Vec<[f64; 3]> = (0..9).map(|_| point()).collect();
+        let (origin, target) = (point(), point());
+        let direction = [0, 1, 2].map(|axis| target[axis] - origin[axis]);
+        let ray = Ray::new(origin, direction);
+        let faces = [[0, 1, 2], [3, 4, 5], [6, 7, 8]];
+        let scene = Scene::new(&vertices, &faces).unwrap();
+        let t = scene
+            .nearest(&ray)
+            .unwrap()
+            .map_or(1.0, |nearest| nearest.t.lower);
+        for kind in kinds {
+            let answer = |power: i32| Answer {
+                face: kind.map(|(face, _)| face),
+                t: kind.map(|(_, off)| times_two_to(t + off, power)),
+            };
+            let expected = scene.judge(&ray, &answer(0)).unwrap();
+            for power in powers {
+                let larger: Vec<[f64; 3]> = vertices
+                    .iter()
+                    .map(|vertex| vertex.map(|x| times_two_to(x, power)))
+                    .collect();
+                let scene = Scene::new(&larger, &faces).unwrap();
+                let origin = origin.map(|x| times_two_to(x, power));
+                // The direction has the unit of length, or one of its own: then t has another one.
+                for of_direction in [power, -power, 0] {
+                    let direction = direction.map(|x| times_two_to(x, of_direction));
+                    let ray = Ray::new(origin, direction);
+                    let of_t = power - of_direction;
+                    if of_t.abs() > 1000 {
+                        continue;
+                    }
+                    let judged = scene.judge(&ray, &answer(of_t)).unwrap();
+                    let about = format!("{index} {kind:?} {power} {of_direction}");
+                    assert_eq!(judged.judgement, expected.judgement, "{about}");
+                    match (judged.off, expected.off) {
+                        (Some(off), Some(expected)) => {
+                            assert!((off - expected).abs() <= 1e-9 * expected.abs().max(1.0));
+                        }
+                        (off, expected) => assert_eq!(off, expected, "{about}"),
+                    }
+                }
+            }
+        }
+    }
 }

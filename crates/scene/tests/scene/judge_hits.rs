@@ -2,7 +2,9 @@
 
 use crate::drawn::{Style, ray, soup};
 use hairline_core::case::Draw;
-use hairline_scene::{Answer, Judgement, NamedHit, NamedPlace, Ray, Scene};
+use hairline_scene::{
+    Answer, Judgement, NamedHit, NamedPlace, NoTargets, NotConforming, Ray, Scene,
+};
 
 /// Cubes of side 1 from these corners, wound to the outside: two faces a side.
 fn cubes(corners: &[[f64; 3]]) -> Scene<f64> {
@@ -175,7 +177,7 @@ fn counts_are_of_points_or_of_faces() {
         Judgement::TooMany,
         Judgement::Tie,
     ];
-    assert_eq!(judgements, [few, right, many, tie, many]);
+    assert_eq!(judgements, [few, right, tie, tie, many]);
     let touching = Ray::new([-0.5, 0.5, 0.5], [1.0, 0.0, -1.0]).on(-9.0, 9.0);
     assert_eq!(counted(&touching, 0), Judgement::Neighbour);
     assert_eq!(counted(&touching, 1), Judgement::Right);
@@ -210,7 +212,9 @@ fn a_program_conforms_or_its_worst_answer_is_told() {
             t: None,
         }
     };
-    let wrong = scene.conforms(3000, 1, leaky).unwrap_err();
+    let NotConforming::Wrong(wrong) = scene.conforms(3000, 1, leaky).unwrap_err() else {
+        panic!("rays can be made");
+    };
     assert!(50 < wrong.count && wrong.count < 1500, "{}", wrong.count);
     let worst = &wrong.worst;
     let again = scene.judge(&worst.ray, &worst.answer).unwrap();
@@ -224,6 +228,37 @@ fn a_program_conforms_or_its_worst_answer_is_told() {
         )),
         "{said}"
     );
+}
+
+#[test]
+fn rays_that_are_made_are_finite_or_nobody_is_asked() {
+    let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let mut is_asked_in_some = false;
+    for size in [1e34f32, 2e36, 3e36, 5e37, 1e38, f32::MAX] {
+        let vertices = [
+            [0.0; 3],
+            [size, 0.0, 0.0],
+            [0.0, size, 0.0],
+            [0.0, 0.0, size],
+        ];
+        let scene = Scene::new(&vertices, &faces).unwrap();
+        let mut asked = 0;
+        let conforms = scene.conforms(600, 1, |ray| {
+            asked += 1;
+            let numbers = ray.origin.iter().chain(&ray.direction);
+            assert!(numbers.clone().all(|x| x.is_finite()), "{size}: {ray:?}");
+            Answer {
+                face: None,
+                t: None,
+            }
+        });
+        match conforms.unwrap_err() {
+            NotConforming::NotAsked(NoTargets::TooLarge) => assert_eq!(asked, 0),
+            NotConforming::NotAsked(NoTargets::NoSize) => panic!("it has a size"),
+            NotConforming::Wrong(_) => is_asked_in_some = true,
+        }
+    }
+    assert!(is_asked_in_some);
 }
 
 #[test]
@@ -265,7 +300,11 @@ fn exact_answers_are_right_in_any_scene_and_one_that_is_left_out_is_lost() {
         let passages = scene.passages(&ray).unwrap();
         let all: Vec<u32> = hits.iter().flat_map(|hit| hit.faces.clone()).collect();
         let judge = |faces: &[u32]| scene.judge_hits(&ray, &named(faces)).unwrap().judgement;
-        assert!(judge(&all).is_right(), "{index}: {all:?} {:?}", judge(&all));
+        assert_eq!(judge(&all), Judgement::Right, "{index}: {all:?}");
+        for counted in passages.len()..=all.len() {
+            let judged = scene.judge_count(&ray, counted as u64).unwrap();
+            assert!(judged.judgement.is_right(), "{index}: {counted}");
+        }
         let count = scene.judge_count(&ray, passages.len() as u64).unwrap();
         assert_eq!(count.judgement, Judgement::Right);
         let any = scene.judge_any(&ray, !hits.is_empty()).unwrap();
@@ -286,5 +325,5 @@ fn exact_answers_are_right_in_any_scene_and_one_that_is_left_out_is_lost() {
             other => panic!("{index}: {other}"),
         }
     }
-    assert!(500 < lost && 500 < unseen, "{lost} {unseen}");
+    assert!(400 < lost && 500 < unseen, "{lost} {unseen}");
 }

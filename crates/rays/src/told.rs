@@ -1,0 +1,188 @@
+//! Wrong answers in words: the truth, the answer, and how far it is off.
+
+use crate::asked::{Answers, Asked, BadRay, of_all};
+use crate::case::Case;
+use crate::corpus::lines::AnyCase;
+use crate::kernel::Scalar;
+use crate::record::{group_digits, number_of};
+use crate::result::{EachAnswer, WrongAnswer, short};
+use crate::scalar::JudgedRun;
+use crate::single::{explain_command, faces_in_words};
+use hairline_scene::{InvalidRay, Judged, Judgement, Location, Ray, Scene};
+
+/// How many wrong answers are told with their commands.
+const TOLD: usize = 3;
+
+/// How many meetings of a ray with the mesh, or faces of one, are told.
+const MEETINGS: usize = 6;
+
+/// Some wrong answers: the farthest of each kind, and then the next ones.
+pub fn worst<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<Vec<WrongAnswer>, BadRay>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let all = judged.iter().enumerate();
+    let mut wrong: Vec<(usize, &Judged)> = all.filter(|(_, it)| it.judgement.is_wrong()).collect();
+    let size = |judged: &Judged| judged.off.map_or(0.0, f64::abs);
+    wrong.sort_by(|(_, a), (_, b)| {
+        let by_kind = a.judgement.cmp(&b.judgement);
+        by_kind.then(size(b).total_cmp(&size(a)))
+    });
+    // One of each kind first.
+    let mut seen = Vec::new();
+    let (first, others): (Vec<_>, Vec<_>) = wrong.into_iter().partition(|(_, judged)| {
+        let is_first = !seen.contains(&judged.judgement);
+        seen.push(judged.judgement);
+        is_first
+    });
+    let all = first.into_iter().chain(others).take(TOLD);
+    all.map(|(index, judged)| told(run, index, judged).map_err(|error| BadRay { index, error }))
+        .collect()
+}
+
+fn told<F: Scalar>(
+    run: &JudgedRun<F>,
+    index: usize,
+    judged: &Judged,
+) -> Result<WrongAnswer, InvalidRay>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let off = match judged.off {
+        Some(off) if run.answers.are_of_points() => {
+            format!(", {} longest edges from the surface", short(off))
+        }
+        Some(off) if off < 0.0 => format!(", {} longest edges in front of it", short(-off)),
+        Some(off) => format!(", {} longest edges behind it", short(off)),
+        None => String::new(),
+    };
+    let (question, truth) = match run.asked {
+        Asked::Rays(rays) => (
+            format!("ray {index}"),
+            truth_of_ray(run, &rays[index], judged)?,
+        ),
+        Asked::Points(points) => {
+            let [x, y, z] = points[index].map(F::to_f64);
+            (
+                format!("point {index} ({x:?}, {y:?}, {z:?})"),
+                truth_of_point(run.scene, points[index])?,
+            )
+        }
+    };
+    let answer = run.answers.in_words(index);
+    let judgement = judged.judgement;
+    Ok(WrongAnswer {
+        index: index as u64,
+        judgement,
+        text: format!("{question}: {judgement}: {truth}; answered {answer}{off}"),
+        commands: command(run, index, judged).into_iter().collect(),
+    })
+}
+
+/// Shows what kernels answer on the exact nearest face, or else on the one that is named.
+fn command<F: Scalar>(run: &JudgedRun<F>, index: usize, judged: &Judged) -> Option<String>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let is_about_a_face = matches!(run.answers, Answers::Nearest(_) | Answers::Any(_));
+    let is_lost = judged.judgement == Judgement::Lost;
+    if !is_about_a_face && !is_lost {
+        return None;
+    }
+    let ray = run.asked.rays().get(index)?;
+    let nearest = judged.hit.as_ref().map(|it| it.faces[0]);
+    let named = match run.answers {
+        Answers::Nearest(all) => all[index].face,
+        _ => None,
+    };
+    let face = nearest.or(named)?;
+    let is_face = (face as usize) < run.mesh.triangles.len();
+    is_face.then(|| explain_command(run.mesh, ray, face))
+}
+
+fn truth_of_ray<F: Scalar>(
+    run: &JudgedRun<F>,
+    ray: &Ray<F>,
+    judged: &Judged,
+) -> Result<String, InvalidRay> {
+    match run.answers {
+        Answers::All(_) => meetings(run.scene, ray),
+        Answers::Count(_) => {
+            let points = run.scene.passages(ray)?.len() as u64;
+            let hits = run.scene.hits(ray)?;
+            let faces = hits.iter().map(|hit| hit.faces.len() as u64).sum();
+            Ok(format!(
+                "it meets the surface {}, {} in all",
+                match points {
+                    1 => "once".to_owned(),
+                    points => format!("{} times", group_digits(points)),
+                },
+                number_of(faces, "face", "faces")
+            ))
+        }
+        _ => {
+            let Some(nearest) = &judged.hit else {
+                return Ok("no face is hit".to_owned());
+            };
+            let values = run.scene.values(ray, nearest.faces[0])?;
+            let faces = faces_in_words(&nearest.faces, MEETINGS);
+            let t = values.map_or(String::new(), |values| format!(" at t = {:?}", values.t[0]));
+            Ok(format!("the nearest is {faces}{t}"))
+        }
+    }
+}
+
+/// The faces that a ray meets, in order.
+fn meetings<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>) -> Result<String, InvalidRay> {
+    let passages = scene.passages(ray)?;
+    if passages.is_empty() {
+        return Ok("it meets no face".to_owned());
+    }
+    let mut words = Vec::new();
+    for passage in passages.iter().take(MEETINGS) {
+        let [from, to] = scene.ends(ray, passage)?;
+        let faces = faces_in_words(&passage.faces, MEETINGS);
+        words.push(match passage.is_segment {
+            true => format!("{faces} from t = {from:?} to {to:?}"),
+            false => format!("{faces} at t = {from:?}"),
+        });
+    }
+    if MEETINGS < passages.len() {
+        words.push(format!("{} more", passages.len() - MEETINGS));
+    }
+    Ok(format!("it meets {}", words.join(", then ")))
+}
+
+fn truth_of_point<F: Scalar>(scene: &Scene<F>, point: [F; 3]) -> Result<String, InvalidRay> {
+    Ok(match scene.locate(point)? {
+        Location::On(_) => "it is on the surface",
+        Location::NotDefined(_) => "the surface is open",
+        Location::Off(winding) if winding.is_zero() => "it is outside",
+        Location::Off(_) => "it is inside",
+    }
+    .to_owned())
+}
+
+/// Every answer beside the truth.
+pub fn each<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<Vec<EachAnswer>, BadRay> {
+    of_all(judged.len(), |index| {
+        let Judged {
+            judgement,
+            hit,
+            off,
+        } = &judged[index];
+        let faces = hit.as_ref().map_or(Vec::new(), |hit| hit.faces.clone());
+        let values = match (run.asked.rays().get(index), faces.first()) {
+            (Some(ray), Some(face)) => run.scene.values(ray, *face)?,
+            _ => None,
+        };
+        Ok(EachAnswer {
+            judgement: *judgement,
+            faces,
+            t: values.map(|values| values.t[0]),
+            answered: run.answers.in_short(index),
+            answered_t: run.answers.t(index),
+            off: *off,
+        })
+    })
+}
