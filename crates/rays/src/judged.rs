@@ -1,16 +1,19 @@
 //! The answers of a program, judged and counted, with the worst of them.
 
+use crate::arith::Float;
 use crate::asked::{Answers, Asked, BadRay};
 use crate::blame::{HitOfRay, lost_hits};
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
 use crate::files::hex;
 use crate::kernel::Scalar;
+use crate::picture;
 use crate::record::number_of;
+use crate::report::page::Picture;
 use crate::result::{JudgementCount, RaysResult, WrongAnswer, mesh_label, short};
 use crate::scalar::JudgedRun;
 use crate::single::explain_command;
-use hairline_scene::{Judged, Judgement, Ray};
+use hairline_scene::{Answer, InvalidRay, Judged, Judgement, Ray, Scene};
 use hmac_sha256::Hash;
 
 /// How many wrong answers are told with their commands.
@@ -203,45 +206,90 @@ fn told<F: Scalar>(run: &JudgedRun<F>, index: usize, judged: &Judged) -> WrongAn
 where
     Case<F>: Into<AnyCase>,
 {
-    let answer = run.answers.in_words(index);
+    let words = in_words(run.answers, index, judged);
+    let (text, picture, commands) = match run.asked {
+        Asked::Points(points) => {
+            let text = format!("point {index}: {words}");
+            let picture = picture::of_point(run.scene, points[index], &text);
+            (text, picture, Vec::new())
+        }
+        Asked::Rays(rays) => {
+            let text = format!("ray {index}: {words}");
+            let answered = Some((run.answers, index));
+            let hit = judged.hit.as_ref();
+            let picture = picture::of_ray(run.scene, &rays[index], hit, answered, &text);
+            let command = command(run, index, judged);
+            // A judged ray means something.
+            (text, picture.ok().flatten(), command.into_iter().collect())
+        }
+    };
+    WrongAnswer {
+        index: index as u64,
+        judgement: judged.judgement,
+        text,
+        commands,
+        picture,
+    }
+}
+
+/// The command that shows a wrong answer about a ray, if it is about a face.
+fn command<F: Scalar>(run: &JudgedRun<F>, index: usize, judged: &Judged) -> Option<String>
+where
+    Case<F>: Into<AnyCase>,
+{
+    let named = match run.answers {
+        Answers::Nearest(all) => all[index].face,
+        _ => None,
+    };
+    let face = nearest_face(judged).or(named)?;
+    let exists = (face as usize) < run.mesh.triangles.len();
+    exists.then(|| explain_command(run.mesh, &run.asked.rays()[index], face))
+}
+
+/// The picture of a ray, and of the nearest hit that a program answered, if one is given. None if the mesh has no finite face; an
+/// error if the ray means nothing.
+pub fn pictured<F: Float>(
+    scene: &Scene<F>,
+    ray: &Ray<F>,
+    answer: Option<Answer>,
+) -> Result<Option<Picture>, InvalidRay> {
+    let Some(answer) = answer else {
+        let hit = scene.nearest(ray)?;
+        let words = match &hit {
+            None => "no face is hit".to_owned(),
+            Some(hit) => format!("the nearest is face {}", hit.faces[0]),
+        };
+        return picture::of_ray(scene, ray, hit.as_ref(), None, &words);
+    };
+    let judged = scene.judge(ray, &answer)?;
+    let answers = Answers::Nearest(vec![answer]);
+    let words = in_words(&answers, 0, &judged);
+    picture::of_ray(scene, ray, judged.hit.as_ref(), Some((&answers, 0)), &words)
+}
+
+fn nearest_face(judged: &Judged) -> Option<u32> {
+    judged.hit.as_ref().map(|hit| hit.faces[0])
+}
+
+/// The truth, the answer, and how far it is off.
+fn in_words(answers: &Answers, index: usize, judged: &Judged) -> String {
+    let answer = answers.in_words(index);
     let off = match judged.off {
-        Some(off) if run.answers.are_of_points() => {
+        Some(off) if answers.are_of_points() => {
             format!(", {} longest edges from the surface", short(off))
         }
         Some(off) if off < 0.0 => format!(", {} longest edges in front of it", short(-off)),
         Some(off) => format!(", {} longest edges behind it", short(off)),
         None => String::new(),
     };
-    let Some(ray) = run.asked.rays().get(index) else {
-        return WrongAnswer {
-            index: index as u64,
-            judgement: judged.judgement,
-            text: format!("point {index}: answered {answer}{off}"),
-            commands: Vec::new(),
-        };
-    };
-    let nearest = judged.hit.as_ref().map(|it| it.faces[0]);
-    let truth = match (nearest, run.answers) {
+    let truth = match (nearest_face(judged), answers) {
+        (_, Answers::Inside(_)) => return format!("answered {answer}{off}"),
         (None, Answers::All(_)) => "the faces that are met are others".to_owned(),
         (None, _) => "no face is hit".to_owned(),
         (Some(face), Answers::All(_)) => format!("face {face} is met too"),
         (Some(face), _) => format!("the nearest is face {face}"),
     };
-    let named = match run.answers {
-        Answers::Nearest(all) => all[index].face,
-        _ => None,
-    };
-    let shown = nearest.or(named);
-    let shown = shown.filter(|face| (*face as usize) < run.mesh.triangles.len());
-    WrongAnswer {
-        index: index as u64,
-        judgement: judged.judgement,
-        text: format!("ray {index}: {truth}; answered {answer}{off}"),
-        commands: shown
-            .map(|face| explain_command(run.mesh, ray, face))
-            .into_iter()
-            .collect(),
-    }
+    format!("{truth}; answered {answer}{off}")
 }
 
 /// The shift of face numbers with which most faces are right, and more than without: of a program that counts from 1, for

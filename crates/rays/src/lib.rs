@@ -24,6 +24,7 @@ mod single;
 
 mod blame;
 mod made;
+mod picture;
 mod plain;
 mod result;
 
@@ -37,7 +38,7 @@ mod scalar;
 
 pub use asked::{AnswerKind, Answers, Asked, BadRay};
 pub use found::FoundHits;
-pub use judged::more_right;
+pub use judged::{more_right, pictured};
 pub use made::MadeRays;
 pub use one::RayTold;
 pub use plain::PlainProgram;

@@ -33,6 +33,8 @@ impl Paged for RaysResult {
         });
         let title_of_worst = "Wrong answers (all are counted from 0)";
         blocks.extend(Block::items(title_of_worst, SHOWN, items.collect()));
+        let pictures = self.worst.iter().filter_map(|it| it.picture.clone());
+        blocks.extend(pictures.map(Block::Picture));
         Page {
             command: "rays",
             title: self.title(),

@@ -6,6 +6,7 @@ use crate::audit::Trials;
 use crate::files::mesh::Mesh;
 use crate::record::{Comparable, NamedRate, NamedValue, Rate, Study, group_digits, number_of};
 use crate::report::JunitCase;
+use crate::report::page::Picture;
 use hairline_core::printable::printable;
 use hairline_scene::Judgement;
 use std::collections::BTreeMap;
@@ -100,6 +101,9 @@ pub struct WrongAnswer {
     pub text: String,
     /// Commands that show it.
     pub commands: Vec<String>,
+    /// The mesh around it, for pages alone.
+    #[serde(skip)]
+    pub picture: Option<Picture>,
 }
 
 impl RaysResult {
