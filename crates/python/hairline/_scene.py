@@ -156,7 +156,7 @@ class Scene:
         self, points: npt.ArrayLike, inside: npt.ArrayLike
     ) -> Tuple[npt.NDArray[np.uint8], npt.NDArray[np.float64]]:
         """Judges on which side n points are, as a program answered it: `inside` of shape (n,), bools or codes of `Where` (OUTSIDE,
-        INSIDE, ON). Returns codes of `Judgement`: RIGHT, WRONG_SIDE, TIE on the surface, where every answer is right, or NOT_DEFINED
+        INSIDE, ON). Returns codes of `Judgement`: RIGHT, WRONG_SIDE, TIE for a side that is answered of a point on the surface, or NOT_DEFINED
         at an open one; and how far each point on the wrong side is from the surface, in longest edges of the face there (NaN for the
         others)."""
         column = self._columns([("points", points, 3)])[0]

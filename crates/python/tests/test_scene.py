@@ -101,7 +101,7 @@ def test_sides_of_points_are_judged():
     codes, distance = scene.judge_inside(points, [True, False, True])
     assert codes.tolist() == [Judgement.RIGHT, Judgement.RIGHT, Judgement.TIE] and np.isnan(distance).all()
     codes, distance = scene.judge_inside(points, [Where.OUTSIDE, Where.ON, Where.ON])
-    assert codes.tolist() == [Judgement.WRONG_SIDE, Judgement.WRONG_SIDE, Judgement.TIE]
+    assert codes.tolist() == [Judgement.WRONG_SIDE, Judgement.WRONG_SIDE, Judgement.RIGHT]
     # 1/8 from a face whose longest edge is the root of 2.
     assert np.isclose(distance[0], 0.125 / np.sqrt(2))
     assert Scene(VERTICES, FACES[:3]).judge_inside(points[:1], [True])[0].tolist() == [Judgement.NOT_DEFINED]
