@@ -33,11 +33,7 @@ fn what_is_known_passes_more_fails_and_less_is_stale() {
     let file = folder.join("hairline-boxes.toml");
     let text = fs::read_to_string(&file).unwrap();
     let counts: Vec<&str> = text.lines().filter(|line| line.starts_with('"')).collect();
-    let said = format!(
-        "hairline-boxes.toml: written; {} wrong answers are known, of {} kinds",
-        group_digits(counts.values().map(|it| it.as_integer().unwrap() as u64).sum()),
-        counts.len()
-    );
+    let said = format!("wrong answers are known, of {} kinds", counts.len());
     assert!(error.contains(&said), "{error}");
     assert!(text.contains("cases = \"300 of seed 1\""), "{text}");
     assert!(

@@ -40,6 +40,7 @@ mod program;
 mod prove;
 mod prove_domain;
 mod rays;
+mod rays_pictures;
 #[cfg(unix)]
 mod relations;
 #[cfg(unix)]

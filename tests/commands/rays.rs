@@ -219,12 +219,7 @@ fn other_answers_than_the_nearest_hit_are_judged_too() {
     }
     for (questions, kind, answers, words) in [
         (&rays[..], "any", "0\n1\n1\n", " lost 1 ghost 1 "),
-        (
-            &rays,
-            "count",
-            "1\n1\n2\n",
-            " too few 1 too many 1 ",
-        ),
+        (&rays, "count", "1\n1\n2\n", " too few 1 too many 1 "),
         (&rays, "all", "0,0,5\n0,3,4.25\n", " wrong order 1 - - "),
         (
             &rays,

@@ -41,9 +41,10 @@ const ROOMS: [Room; 18] = [
     room("crates/explore/src", Some("explore"), 29_100),
     room("crates/plugin/src", Some("plugin"), 20_400),
     room("crates/record/src", Some("record"), 23_000),
-    room("crates/report/src", Some("report"), 100_900),
-    // Of issue 62: answers of programs about whole meshes; most of it came out of src.
-    room("crates/rays/src", Some("rays"), 13_000),
+    // With captions of drawings in files of their own.
+    room("crates/report/src", Some("report"), 101_100),
+    // Of issue 62: answers of programs about whole meshes; most of it came out of src. Then pictures of wrong answers.
+    room("crates/rays/src", Some("rays"), 22_800),
     room("crates/expect/src", Some("expect"), 17_200),
     room("crates/vectors/src", Some("vectors"), 11_900),
     room("crates/repair/src", Some("repair"), 16_800),

@@ -10,8 +10,9 @@ Triangles a, b, c run counter-clockwise seen from the front; u is the weight of 
 parameter, in lengths of the direction. The command `hairline` comes with the package.
 """
 
-from ._audit import Audit, Picture, advise, assert_conforms, audit
+from ._audit import Audit, advise, assert_conforms, audit
 from ._kernel import KernelError, case
+from ._picture import Picture
 from ._scene import Judgement, Meeting, Scene, Where
 from ._truth import Class, Facing, Feature, Place, truth
 

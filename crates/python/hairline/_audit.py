@@ -16,13 +16,7 @@ import numpy as np
 
 from . import _hairline
 from ._kernel import Answers
-
-
-class Picture(str):
-    """A drawing as the text of an SVG, which a notebook shows."""
-
-    def _repr_svg_(self) -> str:
-        return str(self)
+from ._picture import Picture
 
 
 class Audit:

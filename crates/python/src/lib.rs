@@ -11,6 +11,7 @@
 #![deny(unsafe_code)]
 
 mod audit;
+mod judged;
 mod kernel;
 mod scene;
 mod truths;
@@ -27,11 +28,13 @@ mod _hairline {
     #[pymodule_export]
     use super::audit::{Audited, audit};
     #[pymodule_export]
+    use super::judged::judgements;
+    #[pymodule_export]
     use super::kernel::case;
     #[pymodule_export]
     use super::run;
     #[pymodule_export]
-    use super::scene::{ExactScene, judgements};
+    use super::scene::ExactScene;
     #[pymodule_export]
     use super::truths::{names, truth};
 }

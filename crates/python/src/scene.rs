@@ -1,38 +1,19 @@
 //! Rays and points at a whole mesh, exactly.
 
 use super::check_floats;
+use super::judged::{
+    INSIDE, Judgements, NOT_DEFINED, ON, OUTSIDE, answer_of, arrays_of, hits_of, place_of_code,
+    told,
+};
 use hairline::Float;
-use hairline_scene::{Answer, InvalidRay, Judgement, Location, Passage, Ray, Scene, Winding};
+use hairline_scene::{InvalidRay, Location, Passage, Ray, Scene, Winding};
 use numpy::{Element, PyArray1, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-/// The names of judgements, in the order of their codes.
-const JUDGEMENTS: [(Judgement, &str); 7] = [
-    (Judgement::Right, "right"),
-    (Judgement::Tie, "tie"),
-    (Judgement::Neighbour, "neighbour"),
-    (Judgement::WrongT, "wrong_t"),
-    (Judgement::Lost, "lost"),
-    (Judgement::Farther, "farther"),
-    (Judgement::Ghost, "ghost"),
-];
-
-/// Codes of places.
-const OUTSIDE: i8 = 0;
-const INSIDE: i8 = 1;
-const ON: i8 = 2;
-const NOT_DEFINED: i8 = 3;
-
 /// No face.
 const NO_FACE: i64 = -1;
-
-/// The names of judgements, in the order of their codes.
-#[pyfunction]
-pub fn judgements() -> Vec<&'static str> {
-    JUDGEMENTS.iter().map(|(_, name)| *name).collect()
-}
 
 /// A mesh with its tree, in one of the two scalars.
 #[pyclass(frozen)]
@@ -90,7 +71,7 @@ impl ExactScene {
         check_floats()?;
         let all = in_scalar!(&self.0, scene => {
             let rays = rays(columns)?;
-            py.detach(|| of_all(&rays, |ray| nearest(scene, ray)))?
+            py.detach(|| of_all(rays.len(), |i| nearest(scene, &rays[i])))?
         });
         let faces: Vec<i64> = all.iter().map(|(face, ..)| *face).collect();
         let t: Vec<f64> = all.iter().map(|(_, t, _)| *t).collect();
@@ -102,8 +83,8 @@ impl ExactScene {
         ))
     }
 
-    /// The codes of the judgements of answers, and how far each lies behind the exact point, in longest edges (NaN where that
-    /// is not known). A face below 0 is a miss; t may be NaN, which is no t if `has_t` is false.
+    /// The judgements of the nearest hits that were answered. A face below 0 is a miss; t may be NaN, which is no t if `has_t` is
+    /// false.
     fn judge<'py>(
         &self,
         py: Python<'py>,
@@ -111,29 +92,94 @@ impl ExactScene {
         faces: PyReadonlyArrayDyn<'py, i64>,
         t: PyReadonlyArrayDyn<'py, f64>,
         has_t: bool,
-    ) -> PyResult<(Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<f64>>)> {
-        check_floats()?;
+    ) -> PyResult<Judgements<'py>> {
         let (faces, t) = (faces.as_slice()?, t.as_slice()?);
-        let answer = |index: usize| Answer {
-            face: u32::try_from(faces[index]).ok(),
-            t: has_t.then(|| t[index]),
-        };
+        let answer = |i: usize| answer_of(faces[i], has_t.then(|| t[i]));
         let all = in_scalar!(&self.0, scene => {
             let rays = rays(columns)?;
-            let indexed: Vec<_> = rays.into_iter().enumerate().collect();
-            py.detach(|| {
-                of_all(&indexed, |(index, ray)| {
-                    let judged = scene.judge(ray, &answer(*index))?;
-                    Ok((code_of(judged.judgement), judged.off.unwrap_or(f64::NAN)))
-                })
-            })?
+            py.detach(|| of_all(rays.len(), |i| Ok(told(&scene.judge(&rays[i], &answer(i))?))))?
         });
-        let codes: Vec<u8> = all.iter().map(|(code, _)| *code).collect();
-        let behind: Vec<f64> = all.iter().map(|(_, behind)| *behind).collect();
-        Ok((
-            PyArray1::from_vec(py, codes),
-            PyArray1::from_vec(py, behind),
-        ))
+        Ok(arrays_of(py, &all))
+    }
+
+    /// The judgements of answers that there is a hit, or none.
+    fn judge_any<'py>(
+        &self,
+        py: Python<'py>,
+        columns: Columns<'py>,
+        hits: PyReadonlyArrayDyn<'py, bool>,
+    ) -> PyResult<Judgements<'py>> {
+        let hits = hits.as_slice()?;
+        let all = in_scalar!(&self.0, scene => {
+            let rays = rays(columns)?;
+            py.detach(|| of_all(rays.len(), |i| Ok(told(&scene.judge_any(&rays[i], hits[i])?))))?
+        });
+        Ok(arrays_of(py, &all))
+    }
+
+    /// The judgements of numbers of hits.
+    fn judge_count<'py>(
+        &self,
+        py: Python<'py>,
+        columns: Columns<'py>,
+        counts: PyReadonlyArrayDyn<'py, u64>,
+    ) -> PyResult<Judgements<'py>> {
+        let counts = counts.as_slice()?;
+        let all = in_scalar!(&self.0, scene => {
+            let rays = rays(columns)?;
+            py.detach(|| of_all(rays.len(), |i| Ok(told(&scene.judge_count(&rays[i], counts[i])?))))?
+        });
+        Ok(arrays_of(py, &all))
+    }
+
+    /// The judgements of all hits: a ray, a face and a t for each hit, those of a ray in their order.
+    fn judge_hits<'py>(
+        &self,
+        py: Python<'py>,
+        columns: Columns<'py>,
+        ray: PyReadonlyArrayDyn<'py, i64>,
+        faces: PyReadonlyArrayDyn<'py, u32>,
+        t: PyReadonlyArrayDyn<'py, f64>,
+        has_t: bool,
+    ) -> PyResult<Judgements<'py>> {
+        let t = has_t.then(|| t.as_slice()).transpose()?;
+        let all = in_scalar!(&self.0, scene => {
+            let rays = rays(columns)?;
+            let named = hits_of(rays.len(), ray.as_slice()?, faces.as_slice()?, t);
+            py.detach(|| of_all(rays.len(), |i| Ok(told(&scene.judge_hits(&rays[i], &named[i])?))))?
+        });
+        Ok(arrays_of(py, &all))
+    }
+
+    /// The judgements of places of points, by their codes.
+    fn judge_place<'py>(
+        &self,
+        py: Python<'py>,
+        points: &Bound<'py, PyAny>,
+        places: PyReadonlyArrayDyn<'py, i8>,
+    ) -> PyResult<Judgements<'py>> {
+        let places = places.as_slice()?;
+        let place = |i: usize| place_of_code(places[i]);
+        let all = in_scalar!(&self.0, scene => {
+            let points = rows(points)?;
+            py.detach(|| of_all(points.len(), |i| Ok(told(&scene.judge_place(points[i], place(i))?))))?
+        });
+        Ok(arrays_of(py, &all))
+    }
+
+    /// The first ray as an SVG, with a face and a t that a program answered, if it answered; none if there is no face to draw.
+    fn picture(
+        &self,
+        columns: Columns<'_>,
+        answer: Option<(i64, Option<f64>)>,
+    ) -> PyResult<Option<String>> {
+        check_floats()?;
+        let answer = answer.map(|(face, t)| answer_of(face, t));
+        in_scalar!(&self.0, scene => {
+            let rays = rays(columns)?;
+            let mut pictures = of_all(1, |i| hairline_rays::pictured(scene, &rays[i], answer))?;
+            Ok(pictures.swap_remove(0).map(|picture| picture.file()))
+        })
     }
 
     /// The codes of the places of points, and the winding numbers (0 where they are not defined).
@@ -145,7 +191,7 @@ impl ExactScene {
         check_floats()?;
         let all = in_scalar!(&self.0, scene => {
             let points = rows(points)?;
-            py.detach(|| of_all(&points, |point| Ok(place_of(&scene.locate(*point)?))))?
+            py.detach(|| of_all(points.len(), |i| Ok(place_of(&scene.locate(points[i])?))))?
         });
         let places: Vec<i8> = all.iter().map(|(place, _)| *place).collect();
         let windings: Vec<i64> = all.iter().map(|(_, winding)| *winding).collect();
@@ -160,7 +206,7 @@ impl ExactScene {
         check_floats()?;
         in_scalar!(&self.0, scene => {
             let rays = rays(columns)?;
-            of_all(&rays, |ray| meetings(scene, ray)).map(|mut all| all.swap_remove(0))
+            of_all(rays.len(), |i| meetings(scene, &rays[i])).map(|mut all| all.swap_remove(0))
         })
     }
 
@@ -198,14 +244,15 @@ fn rays<F: Float + Element>(
     Ok(lines.zip(ends).map(ray).collect())
 }
 
-/// An answer about each, on all cores; an error names the first that means nothing.
-fn of_all<T: Sync, R: Send>(
-    all: &[T],
-    of_one: impl Fn(&T) -> Result<R, InvalidRay> + Sync,
+/// An answer about each of so many, on all cores; an error names the first that means nothing.
+fn of_all<R: Send>(
+    count: usize,
+    of_one: impl Fn(usize) -> Result<R, InvalidRay> + Sync,
 ) -> PyResult<Vec<R>> {
-    let indexed = all.par_iter().enumerate();
-    let found: Result<Vec<R>, (usize, InvalidRay)> = indexed
-        .map(|(index, one)| of_one(one).map_err(|error| (index, error)))
+    check_floats()?;
+    let found: Result<Vec<R>, (usize, InvalidRay)> = (0..count)
+        .into_par_iter()
+        .map(|index| of_one(index).map_err(|error| (index, error)))
         .collect();
     found.map_err(|(index, error)| PyValueError::new_err(format!("row {index}: {error}")))
 }
@@ -222,11 +269,6 @@ fn nearest<F: Float>(scene: &Scene<F>, ray: &Ray<F>) -> Result<(i64, f64, u32), 
             .map_or(f64::NAN, |values| values.t[0]),
     };
     Ok((face.into(), t, nearest.faces.len() as u32))
-}
-
-fn code_of(judgement: Judgement) -> u8 {
-    let place = JUDGEMENTS.iter().position(|(its, _)| *its == judgement);
-    place.expect("every judgement of a nearest hit has a name") as u8
 }
 
 fn place_of(location: &Location) -> (i8, i64) {

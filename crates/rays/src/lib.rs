@@ -23,6 +23,7 @@ mod single;
 
 mod asked;
 mod made;
+mod picture;
 mod plain;
 mod result;
 
@@ -46,3 +47,4 @@ pub use plain::PlainProgram;
 pub use points::LocatedPoints;
 pub use result::{RaysResult, mesh_label};
 pub use scalar::{JudgedRun, RaysScalar};
+pub use told::pictured;

@@ -42,6 +42,8 @@ impl Paged for RaysResult {
                 "--format csv has every answer, with its judgement and the exact faces.",
             ));
         }
+        let pictures = self.worst.iter().filter_map(|it| it.picture.clone());
+        blocks.extend(pictures.map(Block::Picture));
         Page {
             command: "rays",
             title: self.title(),

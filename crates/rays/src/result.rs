@@ -6,6 +6,7 @@ use crate::audit::Trials;
 use crate::files::mesh::Mesh;
 use crate::record::{Comparable, NamedRate, NamedValue, Rate, Study, group_digits, number_of};
 use crate::report::JunitCase;
+use crate::report::page::Picture;
 use crate::single::joined;
 use hairline_core::printable::printable;
 use hairline_scene::Judgement;
@@ -161,6 +162,9 @@ pub struct WrongAnswer {
     pub text: String,
     /// Commands that show it.
     pub commands: Vec<String>,
+    /// The mesh around it, for pages alone.
+    #[serde(skip)]
+    pub picture: Option<Picture>,
 }
 
 impl RaysResult {

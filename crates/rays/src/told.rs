@@ -1,14 +1,17 @@
 //! Wrong answers in words: the truth, the answer, and how far it is off.
 
+use crate::arith::Float;
 use crate::asked::{Answers, Asked, BadRay, of_all};
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
+use crate::picture;
 use crate::record::{group_digits, number_of};
+use crate::report::page::Picture;
 use crate::result::{EachAnswer, WrongAnswer, short};
 use crate::scalar::JudgedRun;
 use crate::single::{explain_command, faces_in_words};
-use hairline_scene::{InvalidRay, Judged, Judgement, Location, Ray, Scene};
+use hairline_scene::{Answer, InvalidRay, Judged, Judgement, Location, Nearest, Ray, Scene};
 
 /// How many wrong answers are told with their commands.
 const TOLD: usize = 3;
@@ -48,35 +51,65 @@ fn told<F: Scalar>(
 where
     Case<F>: Into<AnyCase>,
 {
+    let (scene, answers) = (run.scene, run.answers);
+    let (text, picture) = match run.asked {
+        Asked::Rays(rays) => {
+            let ray = &rays[index];
+            let truth = truth_of_ray(scene, ray, answers, judged)?;
+            let text = format!("ray {index}: {}", beside(&truth, answers, index, judged));
+            let hit = judged.hit.as_ref();
+            let picture = picture::of_ray(scene, ray, hit, Some((answers, index)), &text)?;
+            (text, picture)
+        }
+        Asked::Points(points) => {
+            let [x, y, z] = points[index].map(F::to_f64);
+            let truth = truth_of_point(scene, points[index])?;
+            let words = beside(truth, answers, index, judged);
+            let text = format!("point {index} ({x:?}, {y:?}, {z:?}): {words}");
+            let picture = picture::of_point(scene, points[index], &text);
+            (text, picture)
+        }
+    };
+    Ok(WrongAnswer {
+        index: index as u64,
+        judgement: judged.judgement,
+        text,
+        commands: command(run, index, judged).into_iter().collect(),
+        picture,
+    })
+}
+
+/// The truth, the answer, and how far it is off.
+fn beside(truth: &str, answers: &Answers, index: usize, judged: &Judged) -> String {
     let off = match judged.off {
-        Some(off) if run.answers.are_of_points() => {
+        Some(off) if answers.are_of_points() => {
             format!(", {} longest edges from the surface", short(off))
         }
         Some(off) if off < 0.0 => format!(", {} longest edges in front of it", short(-off)),
         Some(off) => format!(", {} longest edges behind it", short(off)),
         None => String::new(),
     };
-    let (question, truth) = match run.asked {
-        Asked::Rays(rays) => (
-            format!("ray {index}"),
-            truth_of_ray(run, &rays[index], judged)?,
-        ),
-        Asked::Points(points) => {
-            let [x, y, z] = points[index].map(F::to_f64);
-            (
-                format!("point {index} ({x:?}, {y:?}, {z:?})"),
-                truth_of_point(run.scene, points[index])?,
-            )
-        }
+    let answer = answers.in_words(index);
+    format!("{}: {truth}; answered {answer}{off}", judged.judgement)
+}
+
+/// The picture of a ray, and of the nearest hit that a program answered, if one is given. None if the mesh has no finite face; an
+/// error if the ray means nothing.
+pub fn pictured<F: Float>(
+    scene: &Scene<F>,
+    ray: &Ray<F>,
+    answer: Option<Answer>,
+) -> Result<Option<Picture>, InvalidRay> {
+    let Some(answer) = answer else {
+        let hit = scene.nearest(ray)?;
+        let words = nearest_in_words(scene, ray, hit.as_ref())?;
+        return picture::of_ray(scene, ray, hit.as_ref(), None, &words);
     };
-    let answer = run.answers.in_words(index);
-    let judgement = judged.judgement;
-    Ok(WrongAnswer {
-        index: index as u64,
-        judgement,
-        text: format!("{question}: {judgement}: {truth}; answered {answer}{off}"),
-        commands: command(run, index, judged).into_iter().collect(),
-    })
+    let judged = scene.judge(ray, &answer)?;
+    let answers = Answers::Nearest(vec![answer]);
+    let truth = truth_of_ray(scene, ray, &answers, &judged)?;
+    let words = beside(&truth, &answers, 0, &judged);
+    picture::of_ray(scene, ray, judged.hit.as_ref(), Some((&answers, 0)), &words)
 }
 
 /// Shows what kernels answer on the exact nearest face, or else on the one that is named.
@@ -100,16 +133,17 @@ where
     is_face.then(|| explain_command(run.mesh, ray, face))
 }
 
-fn truth_of_ray<F: Scalar>(
-    run: &JudgedRun<F>,
+fn truth_of_ray<F: Float>(
+    scene: &Scene<F>,
     ray: &Ray<F>,
+    answers: &Answers,
     judged: &Judged,
 ) -> Result<String, InvalidRay> {
-    match run.answers {
-        Answers::All(_) => meetings(run.scene, ray),
+    match answers {
+        Answers::All(_) => meetings(scene, ray),
         Answers::Count(_) => {
-            let points = run.scene.passages(ray)?.len() as u64;
-            let hits = run.scene.hits(ray)?;
+            let points = scene.passages(ray)?.len() as u64;
+            let hits = scene.hits(ray)?;
             let faces = hits.iter().map(|hit| hit.faces.len() as u64).sum();
             Ok(format!(
                 "it meets the surface {}, {} in all",
@@ -120,20 +154,26 @@ fn truth_of_ray<F: Scalar>(
                 number_of(faces, "face", "faces")
             ))
         }
-        _ => {
-            let Some(nearest) = &judged.hit else {
-                return Ok("no face is hit".to_owned());
-            };
-            let values = run.scene.values(ray, nearest.faces[0])?;
-            let faces = faces_in_words(&nearest.faces, MEETINGS);
-            let t = values.map_or(String::new(), |values| format!(" at t = {:?}", values.t[0]));
-            Ok(format!("the nearest is {faces}{t}"))
-        }
+        _ => nearest_in_words(scene, ray, judged.hit.as_ref()),
     }
 }
 
+fn nearest_in_words<F: Float>(
+    scene: &Scene<F>,
+    ray: &Ray<F>,
+    nearest: Option<&Nearest>,
+) -> Result<String, InvalidRay> {
+    let Some(nearest) = nearest else {
+        return Ok("no face is hit".to_owned());
+    };
+    let values = scene.values(ray, nearest.faces[0])?;
+    let faces = faces_in_words(&nearest.faces, MEETINGS);
+    let t = values.map_or(String::new(), |values| format!(" at t = {:?}", values.t[0]));
+    Ok(format!("the nearest is {faces}{t}"))
+}
+
 /// The faces that a ray meets, in order.
-fn meetings<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>) -> Result<String, InvalidRay> {
+fn meetings<F: Float>(scene: &Scene<F>, ray: &Ray<F>) -> Result<String, InvalidRay> {
     let passages = scene.passages(ray)?;
     if passages.is_empty() {
         return Ok("it meets no face".to_owned());
@@ -153,14 +193,13 @@ fn meetings<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>) -> Result<String, Invalid
     Ok(format!("it meets {}", words.join(", then ")))
 }
 
-fn truth_of_point<F: Scalar>(scene: &Scene<F>, point: [F; 3]) -> Result<String, InvalidRay> {
+fn truth_of_point<F: Float>(scene: &Scene<F>, point: [F; 3]) -> Result<&'static str, InvalidRay> {
     Ok(match scene.locate(point)? {
         Location::On(_) => "it is on the surface",
         Location::NotDefined(_) => "the surface is open",
         Location::Off(winding) if winding.is_zero() => "it is outside",
         Location::Off(_) => "it is inside",
-    }
-    .to_owned())
+    })
 }
 
 /// Every answer beside the truth.

@@ -31,15 +31,32 @@ const MOST_DECADES: i32 = 5;
 /// Colours by kind of ray, dashes by kind of error; light and dark.
 pub(super) const STYLE: &str = include_str!("chart.css");
 
-/// A file of drawings, one below the other.
-pub(super) fn file(title: &str, height: f64, drawing: &str) -> String {
+/// Drawings, in a width and a height, as a file.
+pub(super) fn file(title: &str, [width, height]: [f64; 2], drawing: &str) -> String {
+    let title = escaped(title);
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" role=\"img\">\n<title>{title}</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\">\n<title>{title}</title>\n<style>{STYLE}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{drawing}\n</svg>\n"
     )
 }
 
-/// A text at a place.
-pub(super) fn text_at(x: f64, y: f64, class: &str, text: &str) -> String {
+/// Drawings as a file, with a caption below; it may be empty.
+pub(super) fn captioned_file(
+    title: &str,
+    [width, height]: [f64; 2],
+    drawing: &str,
+    caption: &str,
+) -> String {
+    let mut drawing = drawing.to_owned();
+    let mut y = height;
+    for line in wrapped(caption).iter().filter(|line| !line.is_empty()) {
+        y += LINE;
+        drawing += &text_at(12.0, y, "soft", line);
+    }
+    file(title, [width, y + LINE / 2.0], &drawing)
+}
+
+/// A text at a place of a drawing, as an element of SVG.
+pub fn text_at(x: f64, y: f64, class: &str, text: &str) -> String {
     format!(
         "<text x=\"{x:.1}\" y=\"{y:.1}\" class=\"{class}\">{}</text>\n",
         escaped(text)

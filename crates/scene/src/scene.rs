@@ -101,6 +101,16 @@ impl<F: Float> Scene<F> {
         &self.not_finite
     }
 
+    /// The faces that rays may meet, in no order: all but those of [`Scene::not_finite`].
+    pub fn finite(&self) -> &[u32] {
+        &self.faces
+    }
+
+    /// The vertices of a face. None if there is no such face, or if it is not finite.
+    pub fn triangle(&self, face: u32) -> Option<Triangle<f64>> {
+        self.place_of(face).map(|place| self.triangle_at(place))
+    }
+
     /// The faces that a ray meets first on its interval. None if it meets no face; an error if the ray means nothing.
     pub fn nearest(&self, ray: &Ray<F>) -> Result<Option<Nearest>, InvalidRay> {
         let ray = ray.checked()?;

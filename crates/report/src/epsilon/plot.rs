@@ -44,7 +44,7 @@ pub fn write(record: &SceneResult, out: &mut dyn Write) -> io::Result<()> {
         }
         y += LINE;
     }
-    out.write_all(file("Wrong answers by epsilon in a scene", y, &drawing).as_bytes())
+    out.write_all(file("Wrong answers by epsilon in a scene", [WIDTH, y], &drawing).as_bytes())
 }
 
 /// The footer: the rays and the contract behind the shares.

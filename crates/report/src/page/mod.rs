@@ -14,8 +14,11 @@ pub use html::elements;
 pub use markdown::{LIMIT as MARKDOWN_LIMIT, within as markdown_within};
 pub use table::{Cell, CellValue, Head, Row, Table};
 
+pub use crate::chart::text_at;
+
 use hairline_record::Record;
 
+use crate::chart;
 use crate::format::Format;
 #[cfg(feature = "pages")]
 use serde::Serialize;
@@ -149,6 +152,18 @@ pub enum Drawing {
     Chart(String, [f64; 2]),
     /// A whole SVG.
     Svg(String),
+}
+
+impl Picture {
+    /// The drawing with its caption as an SVG file of its own, light or dark as the reader's screen is.
+    pub fn file(&self) -> String {
+        match &self.drawing {
+            Drawing::Chart(elements, size) => {
+                chart::captioned_file(&self.about, *size, elements, &self.caption)
+            }
+            Drawing::Svg(svg) => svg.clone(),
+        }
+    }
 }
 
 /// A record that is a page.
