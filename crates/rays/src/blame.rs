@@ -109,7 +109,7 @@ impl<F: Scalar> Sample<F> {
 }
 
 impl<F: Scalar> Sides<F> {
-    /// What a kernel misses, with its own epsilons or with another one for rays along the plane: the one that explains most.
+    /// The hits that a kernel misses, with its own epsilons or with another one for rays along the plane: the one that explains most.
     fn of_kernel(&self, entry: &Entry) -> Option<MissCount> {
         let kernel = F::subject(entry)?;
         let mut best: Option<MissCount> = None;

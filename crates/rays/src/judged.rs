@@ -175,7 +175,7 @@ fn wrong_rays<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<WrongR
 /// The most faces that are asked about to see what a program loses without boxes, of all rays together.
 const ASKED: usize = 30_000_000;
 
-/// What a plain program with boxes loses without them too, of the rays whose hits are lost.
+/// The rays that a plain program with boxes loses, traced again without boxes.
 fn without_boxes<F: Scalar>(
     run: &JudgedRun<F>,
     judged: &[Judged],

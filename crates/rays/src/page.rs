@@ -180,7 +180,7 @@ impl WrongRays {
         BLAMED * all as f64 <= there as f64
     }
 
-    /// What the rays of wrong answers have in common.
+    /// A sentence about the rays of wrong answers.
     fn sentence(&self) -> Option<String> {
         let kinds = [
             (self.in_plane, "run in the plane of a face that they meet"),

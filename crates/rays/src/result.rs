@@ -62,9 +62,9 @@ pub struct RaysResult {
 pub struct WrongRays {
     /// Those that run in the plane of a face that they meet.
     pub in_plane: u64,
-    /// Of the others those that meet an edge or a vertex, exactly.
+    /// Those that meet an edge or a vertex exactly, and run in no plane.
     pub at_edge: u64,
-    /// Of the others those that meet the inside of a face.
+    /// Those that meet the inside of a face only.
     pub inside: u64,
     /// Those that meet nothing.
     pub nothing: u64,
@@ -114,7 +114,7 @@ pub struct LostHits {
     pub at_start: u64,
     /// How many at its end.
     pub at_end: u64,
-    /// Of a plain program that has boxes: what it loses without them.
+    /// How many a plain program with boxes loses without them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without_boxes: Option<WithoutBoxes>,
     /// The built-in kernels that miss some of them too, by themselves, on all faces of the hit: those first that explain most. Each
@@ -124,7 +124,7 @@ pub struct LostHits {
     pub missed_by_box_tests: Vec<MissCount>,
 }
 
-/// What a plain program loses if it asks about every face.
+/// How many rays a plain program loses if it asks about every face.
 #[apply(part!)]
 pub struct WithoutBoxes {
     /// So many of the rays whose hits are lost were tried.
