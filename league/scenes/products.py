@@ -61,7 +61,7 @@ def cgal():
 
 
 UNIT = "rays get unit directions, as it requires"
-SLOW = "asked 500 rays where others are asked 10,000, because it is slow"
+SLOW = "asked 500 rays of a kind at a mesh, because it is slow"
 
 PRODUCTS = {
     "Embree, robust": lambda: in_python("Embree, robust", "embreex", "f32", "embreex", note="embreex, which has Embree 4.4.0"),
