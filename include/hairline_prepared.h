@@ -41,14 +41,15 @@ HAIRLINE_FUNCTION void hp_cross(double out[3], const double x[3], const double y
 HAIRLINE_FUNCTION double hp_lesser(double x, double y) { return x < y ? x : y; }
 HAIRLINE_FUNCTION double hp_larger(double x, double y) { return x > y ? x : y; }
 
-/* What a triangle needs besides its corners, in double for both scalars: a, a-c, b-a, N, and the factors of its margins. */
+/* What a triangle needs besides its corners, in double for both scalars: a, a-c, b-a, N, the factors of its margins, and
+ * |a|, at least. */
 typedef struct {
-    double a[3], ca[3], ab[3], n[3], edges, area, depth;
+    double a[3], ca[3], ab[3], n[3], edges, area, depth, far;
 } hp_triangle;
 
-/* The same of a ray: its vectors, |d| and |d| |o|, at least. */
+/* The same of a ray: its vectors, and |d|, |d| |o| and |o|, at least. */
 typedef struct {
-    double o[3], d[3], speed, reach;
+    double o[3], d[3], speed, reach, far;
 } hp_ray;
 
 HAIRLINE_FUNCTION double hp_margin(int is_open, double rounding, double least) {
@@ -69,6 +70,7 @@ HAIRLINE_FUNCTION void hp_prepare_triangle(hp_triangle *k, const double a[3], co
     is_open = !(longest <= HP_LARGEST && far <= HP_LARGEST);
     k->edges = hp_margin(is_open, sum, whole);
     k->area = hp_margin(is_open, product + sum * far, whole * (whole + far));
+    k->far = far;
     k->depth = hp_margin(is_open, product, whole * whole);
 }
 
@@ -79,6 +81,7 @@ HAIRLINE_FUNCTION void hp_prepare_ray(hp_ray *r, const double o[3], const double
     far = hp_length(r->o), length = hp_length(r->d);
     is_open = !(far <= HP_LARGEST && length <= HP_LARGEST);
     r->speed = is_open ? HUGE_VAL : length + HP_LEAST * (1 + length);
+    r->far = far + HP_LEAST * (1 + r->speed);
     r->reach = is_open ? HUGE_VAL : r->speed * far;
 }
 
@@ -101,15 +104,16 @@ HAIRLINE_FUNCTION int hp_decide(const hp_triangle *k, const hp_ray *r, double t_
     from = t_min < -HP_FAR ? -HP_FAR : t_min, to = HP_FAR < t_max ? HP_FAR : t_max;
     /* How far t is past the start and before the end, times |det|. */
     past = along - from * size, before = to * size - along;
-    lengths = fabs(s[0]) + fabs(s[1]) + fabs(s[2]) + (HP_LEAST + HP_LEAST * r->speed);
+    lengths = k->far + r->far;
     past_margin = k->depth * (lengths + fabs(from) * r->speed);
     before_margin = k->depth * (lengths + fabs(to) * r->speed);
     if (past > past_margin && before > before_margin && size * HP_SHARE > margin) {
         inverse = 1 / det;
         answer->hit = 1, answer->front = det > 0, answer->asked = 0;
         answer->t = t * inverse;
-        answer->u = hx_within(u * inverse, 0, 1);
-        answer->v = hx_within(v * inverse, 0, 1 - answer->u);
+        /* U, V and W are above 9 u |det|, so 0 < u, 0 < v and u + v < 1 for the rounded ones too. */
+        answer->u = u * inverse;
+        answer->v = v * inverse;
         return 1;
     }
     if (past < -past_margin && from == t_min) return 0;

@@ -17,6 +17,8 @@ pub struct PreparedTriangle<F, N> {
     edges: N,
     area: N,
     depth: N,
+    /// |a|, at least.
+    far: N,
     /// b and c, for exact arithmetic.
     pub(super) others: [[F; 3]; 2],
 }
@@ -26,9 +28,10 @@ pub struct PreparedTriangle<F, N> {
 pub struct PreparedRay<F, N> {
     o: [N; 3],
     d: [N; 3],
-    /// |d|, at least; and |d|·|o|.
+    /// |d|, at least; |d|·|o|; and |o|.
     speed: N,
     reach: N,
+    far: N,
     scalar: PhantomData<F>,
 }
 
@@ -92,6 +95,7 @@ impl<F: Float, N: Number + From<F>> PreparedTriangle<F, N> {
             edges: margin(sum, whole),
             area: margin(product + sum * far, whole * (whole + far)),
             depth: margin(product, whole * whole),
+            far,
             others,
         }
     }
@@ -120,7 +124,7 @@ impl<F: Float, N: Number + From<F>> PreparedTriangle<F, N> {
             // How far t is past an end, times |det|, and what rounding may have made of it.
             let past = along - from_end * size;
             let before = to_end * size - along;
-            let lengths = s[0].abs() + s[1].abs() + s[2].abs() + (N::LEAST + N::LEAST * ray.speed);
+            let lengths = self.far + ray.far;
             let past_margin = self.depth * (lengths + from_end.abs() * ray.speed);
             let before_margin = self.depth * (lengths + to_end.abs() * ray.speed);
             if past > past_margin && before > before_margin && size * N::SHARE > margin {
@@ -197,6 +201,7 @@ impl<F: Float, N: Number + From<F>> PreparedRay<F, N> {
         PreparedRay {
             o,
             d,
+            far: far + N::LEAST * (N::one() + speed),
             speed,
             reach,
             scalar: PhantomData,
