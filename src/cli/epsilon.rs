@@ -8,7 +8,8 @@ use super::before::{
 };
 use super::exit::{Failure, Status};
 use super::flags::{refuse_twice, scalars_of};
-use super::output::{OutputArguments, paired_outputs};
+use super::output::OutputArguments;
+use super::outputs::paired_outputs;
 use super::progress::Progress;
 use super::select::KernelArguments;
 use super::sources::SourceArguments;

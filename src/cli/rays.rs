@@ -1,110 +1,29 @@
 //! `hairline rays`: what rays really meet in a mesh, and what another program should have answered.
 
 mod answers;
+mod arguments;
 mod program;
 mod read;
 
 use super::before::set_threads;
 use super::exit::{Failure, Status};
-use super::flags::{find_scalar, unknown};
+use super::flags::find_scalar;
 use super::input::read_mesh;
-use super::known::{Blessing, KnownCounts, KnownSubject};
-use super::output::OutputArguments;
+use super::known::{KnownCounts, KnownSubject};
 use crate::arith::ScalarName;
 use crate::expect::RecordComparison;
 use crate::files::InputError;
 use crate::files::mesh::Mesh;
-use crate::record::{Context, Record, group_digits, provenance_of};
+use crate::record::{Context, Record, provenance_of};
 use crate::report::{Format, write_junit};
-use clap::Args;
+pub use arguments::RaysArguments;
+use arguments::{AnswerArguments, kinds};
 use hairline_rays::{
-    AnswerKind, Answers, Asked, BadRay, FoundHits, JudgedRun, LocatedPoints, MadeRays,
-    PlainProgram, RaysResult, RaysScalar, more_right,
+    Answers, Asked, BadRay, FoundHits, JudgedRun, LocatedPoints, MadeRays, PlainProgram,
+    RaysResult, RaysScalar, more_right,
 };
-use hairline_scene::{Judgement, NoTargets, Ray, RayKind, Scene, Targets};
-use program::ProgramArguments;
-use std::iter;
+use hairline_scene::{Judgement, NoTargets, Ray, Scene, Targets};
 use std::time::Instant;
-
-/// Which mesh, which rays, whose answers.
-#[derive(Args)]
-pub struct RaysArguments {
-    /// The mesh: an OBJ, PLY, STL or glTF file (.gltf or .glb); - is standard input
-    #[arg(value_name = "MESH")]
-    mesh: String,
-
-    /// The rays, one a line: origin and direction as six numbers, or eight with t_min and t_max; or JSON with the fields
-    /// origin, direction, t_min and t_max
-    #[arg(value_name = "RAYS")]
-    rays: Option<String>,
-
-    /// One ray instead, as "ox,oy,oz dx,dy,dz" or with t_min,t_max behind: everything about it
-    #[arg(long, value_name = "RAY", conflicts_with_all = ["rays", "answers", "points"], allow_hyphen_values = true)]
-    ray: Option<String>,
-
-    /// Points instead of rays, three numbers a line: inside, outside or on the surface
-    #[arg(long, value_name = "FILE", conflicts_with = "rays")]
-    points: Option<String>,
-
-    /// Make so many rays at the mesh instead, as CSV: ask your program about them
-    #[arg(long, value_name = "N", conflicts_with_all = ["rays", "ray", "answers", "points"])]
-    make: Option<u64>,
-
-    /// Which rays to make: random, vertex, edge, axis, plane (in that of a face), surface (from face to face) [default: all in turn]
-    #[arg(
-        long,
-        value_name = "KIND,...",
-        value_delimiter = ',',
-        requires = "make"
-    )]
-    kinds: Vec<String>,
-
-    /// Seed of the rays that are made [default: 1]
-    #[arg(long, value_name = "SEED", requires = "make")]
-    seed: Option<u64>,
-
-    #[command(flatten)]
-    answered: AnswerArguments,
-
-    #[command(flatten)]
-    program: ProgramArguments,
-
-    /// f32 or f64: what the numbers of mesh and rays are rounded to first [default: f64; for --answers the one in which more
-    /// are right]
-    #[arg(long, value_name = "SCALAR")]
-    scalar: Option<String>,
-
-    /// Threads [default: all cores]
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
-
-    #[command(flatten)]
-    output: OutputArguments,
-}
-
-/// Whose answers are judged, and what is known of them.
-#[derive(Args)]
-struct AnswerArguments {
-    /// A program's answers, one a line in the order of the rays: the nearest face's number from 0 (-1 for a miss), and its t
-    /// if there is one; or JSON with the fields face and t
-    #[arg(long, value_name = "FILE", help_heading = ANSWERS)]
-    answers: Option<String>,
-
-    /// Answers of another kind: any (1 for a hit, 0 for none), all (every hit a line: ray, face, t), count (of hits), or
-    /// inside (inside, outside or on; of --points) [default: nearest]
-    #[arg(long, value_name = "KIND", requires = "answers", help_heading = ANSWERS)]
-    answered: Option<String>,
-
-    /// Known wrong answers: fail only if there are more, and with 3 if there are fewer
-    #[arg(long, value_name = "FILE", help_heading = ANSWERS)]
-    known: Option<String>,
-
-    #[command(flatten)]
-    blessing: Blessing,
-}
-
-/// The heading of these flags in the help.
-const ANSWERS: &str = "Answers of a program";
 
 /// The formats of judged answers.
 const FORMATS: &[Format<Record<RaysResult>>] = &[
@@ -154,82 +73,6 @@ pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
     match scalar {
         Some(ScalarName::F32) => run.answer::<f32>(),
         Some(ScalarName::F64) | None => run.answer::<f64>(),
-    }
-}
-
-/// The most rays that are made: they are held in memory.
-const MOST: u64 = 50_000_000;
-
-impl RaysArguments {
-    /// An error if standard input is two files, or if a result would take the place of one of the files that are read.
-    fn check_files(&self) -> Result<(), Failure> {
-        let AnswerArguments { answers, known, .. } = &self.answered;
-        let others = [&self.rays, &self.points, answers, known];
-        let read = || iter::once(&self.mesh).chain(others.into_iter().flatten());
-        if 1 < read().filter(|file| *file == "-").count() {
-            return Err(Failure::usage(
-                "-: standard input is named twice; give a file for one of them",
-            ));
-        }
-        match self.make {
-            Some(count) if MOST < count => Err(Failure::usage(format!(
-                "--make {count}: at most {}, which fill memory; use several seeds",
-                group_digits(MOST)
-            ))),
-            _ => self.output.keeps(read()),
-        }
-    }
-
-    /// True if answers are judged: those of a file, or of a program that hairline runs.
-    fn is_judged(&self) -> Result<bool, Failure> {
-        let has_answers = self.answered.answers.is_some() || self.program.is_given();
-        self.answered
-            .blessing
-            .needs(self.answered.known.as_deref())?;
-        if self.answered.answered.is_some() && self.answered.answers.is_none() {
-            return Err(Failure::usage(
-                "--answered: a plain program answers nearest hits",
-            ));
-        }
-        let is_about_made_rays = !self.kinds.is_empty() || self.seed.is_some();
-        if is_about_made_rays && self.make.is_none() {
-            return Err(Failure::usage(
-                "--kinds and --seed are about rays that are made: give --make N too",
-            ));
-        }
-        if self.answered.known.is_some() && !has_answers {
-            return Err(Failure::usage(
-                "--known: whose answers? Give them with --answers, or --kernel",
-            ));
-        }
-        let has_questions = self.rays.is_some() || self.points.is_some() || self.make.is_some();
-        if has_answers && !has_questions {
-            return Err(Failure::usage(
-                "answers to which rays? Give the file of them too",
-            ));
-        }
-        Ok(has_answers)
-    }
-
-    /// The kind of the answers.
-    fn kind(&self) -> Result<AnswerKind, Failure> {
-        let kind = match (&self.answered.answered, &self.points) {
-            (Some(name), _) => AnswerKind::named(name).ok_or_else(|| {
-                let names = AnswerKind::ALL.map(AnswerKind::name);
-                unknown("kind of answers", name, names, "hairline rays --help")
-            })?,
-            (None, Some(_)) => AnswerKind::Inside,
-            (None, None) => AnswerKind::Nearest,
-        };
-        match (kind, self.points.is_some()) {
-            (AnswerKind::Inside, false) => Err(Failure::usage(
-                "--answered inside: of which points? Give --points FILE in place of rays",
-            )),
-            (AnswerKind::Inside, true) | (_, false) => Ok(kind),
-            (_, true) => Err(Failure::usage(format!(
-                "--answered {kind}: points are inside or outside"
-            ))),
-        }
     }
 }
 
@@ -419,18 +262,4 @@ impl RaysRun<'_> {
         let file = rays.as_deref().unwrap_or(&self.mesh.name);
         InputError::of(file, format!("ray {index}, counted from 0: {error}")).into()
     }
-}
-
-/// The kinds of rays of these names; all without names.
-fn kinds(names: &[String]) -> Result<Vec<RayKind>, Failure> {
-    if names.is_empty() {
-        return Ok(RayKind::ALL.to_vec());
-    }
-    let named = |name: &String| {
-        RayKind::named(name).ok_or_else(|| {
-            let names = RayKind::ALL.map(RayKind::name);
-            unknown("kind of rays", name, names, "hairline rays --help")
-        })
-    };
-    names.iter().map(named).collect()
 }

@@ -40,7 +40,9 @@ mod program;
 mod prove;
 mod prove_domain;
 mod rays;
+mod rays_judged;
 mod rays_pictures;
+mod rays_program;
 #[cfg(unix)]
 mod relations;
 #[cfg(unix)]
