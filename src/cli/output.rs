@@ -2,7 +2,7 @@
 
 use super::exit::Failure;
 use super::flags::OUTPUT;
-use super::outputs::paired_outputs;
+use super::outputs::{format_named_by, paired_outputs};
 use super::places::{is_descriptor, is_standard_output, linked, place_of};
 use super::plugins;
 use crate::descriptors;
@@ -74,6 +74,15 @@ impl OutputArguments {
         table: &'static [Format<R>],
     ) -> Result<Vec<(&'static Format<R>, &str)>, Failure> {
         paired_outputs(table, &self.format, &self.output)
+    }
+
+    /// True if a format is written, by its name or by the end of a file's name.
+    pub fn writes(&self, format: &str) -> bool {
+        if !self.format.is_empty() {
+            return self.format.iter().any(|name| name == format);
+        }
+        let mut files = self.output.iter();
+        files.any(|path| format_named_by(path).is_some_and(|name| name == format))
     }
 
     /// An error if an output is one of some files that are read.

@@ -97,7 +97,7 @@ pub fn format_of<R>(table: &[Format<R>], path: &str) -> Option<&'static str> {
 }
 
 /// The format for which the end of a file's name stands.
-fn format_named_by(path: &str) -> Option<String> {
+pub fn format_named_by(path: &str) -> Option<String> {
     let ending = Path::new(path).extension()?.to_str()?.to_ascii_lowercase();
     let named = ENDINGS.iter().find(|(short, _)| *short == ending);
     Some(named.map_or(ending.clone(), |(_, name)| (*name).to_owned()))

@@ -66,6 +66,7 @@ pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
         arguments,
         mesh: &mesh,
         threads,
+        tells_each: arguments.output.writes("csv"),
     };
     if arguments.is_judged()? {
         return run.judge(scalar);
@@ -81,6 +82,8 @@ struct RaysRun<'a> {
     arguments: &'a RaysArguments,
     mesh: &'a Mesh,
     threads: usize,
+    /// True if a line for each answer is written.
+    tells_each: bool,
 }
 
 impl RaysRun<'_> {
@@ -185,6 +188,7 @@ impl RaysRun<'_> {
             asked: &asked,
             answers: &self.answers(&asked, program.as_ref())?,
             program: program.as_ref(),
+            tells_each: self.tells_each,
         };
         F::judged(&run).map_err(|bad| self.bad(bad))
     }

@@ -130,7 +130,10 @@ where
         wrong_rays: wrong_rays(run, &judged)?,
         worst: worst(run, &judged)?,
         right_hits,
-        each: each(run, &judged)?,
+        each: match run.tells_each {
+            true => each(run, &judged)?,
+            false => Vec::new(),
+        },
     })
 }
 

@@ -106,20 +106,24 @@ impl RaysResult {
             ),
         };
         let reason = self.lost.reason(self.program.is_some());
-        let is_too_little = count.min(self.lost.found) < FEWEST as u64;
-        let reason = reason.unwrap_or_else(|| match self.wrong_rays.are_at_edges() {
-            _ if is_too_little => format!(
-                "{} found: too few of these or of those to tell who loses them.",
-                number_of(self.lost.found, "hit is", "hits are")
-            ),
-            true => "Their rays meet edges or vertices exactly, and no built-in test misses just these: does yours take u = 0 and v = 0 for \
-                     hits, in both neighbours?"
-                .to_owned(),
-            false => "No built-in triangle test and no slab test misses most of these and finds the others. If yours are others, look at \
-                      them; else at the tree, a transform, an end of the interval, or how faces are numbered."
-                .to_owned(),
-        });
-        format!("{start} {reason}")
+        format!("{start} {}", reason.unwrap_or_else(|| self.no_reason()))
+    }
+
+    /// Why no test and no end explains the lost hits.
+    fn no_reason(&self) -> String {
+        let LostHits { count, found, .. } = self.lost;
+        if count.min(found) < FEWEST as u64 {
+            let found = number_of(found, "hit is", "hits are");
+            return format!("{found} found: too few of these or of those to tell who loses them.");
+        }
+        if self.wrong_rays.are_at_edges() {
+            return "Their rays meet edges or vertices exactly, and no built-in test misses just these: does yours take u = 0 and v = 0 for \
+                    hits, in both neighbours?"
+                .to_owned();
+        }
+        "No built-in triangle test and no slab test misses most of these and finds the others. If yours are others, look at them; else at the \
+         tree, a transform, an end of the interval, or how faces are numbered."
+            .to_owned()
     }
 
     /// How the numbers were read, if not as they are written.

@@ -51,7 +51,7 @@ pub struct RaysResult {
     /// How many right answers name a face, or tell of a hit that there is.
     #[serde(skip)]
     pub right_hits: u64,
-    /// Every answer, for CSV. A record has the counts alone.
+    /// Every answer, if it was asked for. A record has the counts alone.
     #[serde(skip)]
     pub each: Vec<EachAnswer>,
 }

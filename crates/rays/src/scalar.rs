@@ -25,6 +25,8 @@ pub struct JudgedRun<'a, F: Scalar> {
     pub answers: &'a Answers,
     /// Who answered, if hairline ran it.
     pub program: Option<&'a PlainProgram>,
+    /// True if each answer is told beside the truth, for CSV: exact values take time.
+    pub tells_each: bool,
 }
 
 /// A scalar in which a mesh is asked about.
