@@ -18,6 +18,16 @@ const STRICT: [&str; 5] = [
     "-fsanitize-undefined-trap-on-error",
 ];
 
+/// C99, and C++17 contracted.
+const C: &[&str] = &["-std=c99", "-pedantic", "-O2"];
+const CPP: &[&str] = &[
+    "-xc++",
+    "-std=c++17",
+    "-O3",
+    "-march=native",
+    "-ffp-contract=fast",
+];
+
 fn exact(name: &str, edges: &str, flags: &[&str]) -> Option<String> {
     built("exact", name, edges, flags)
 }
@@ -68,18 +78,10 @@ fn wrong_beyond(record: &Value, limit: f64) -> Vec<String> {
 
 #[test]
 fn it_is_right_on_every_family_in_c_and_in_cpp_contracted_or_not() {
-    let c = ["-std=c99", "-pedantic", "-O2"];
-    let cpp = [
-        "-xc++",
-        "-std=c++17",
-        "-O3",
-        "-march=native",
-        "-ffp-contract=fast",
-    ];
     for (name, edges, flags) in [
-        ("exact-closed", "CLOSED", &c[..]),
-        ("exact-fast", "CLOSED", &cpp),
-        ("exact-open", "OPEN", &c),
+        ("exact-closed", "CLOSED", C),
+        ("exact-fast", "CLOSED", CPP),
+        ("exact-open", "OPEN", C),
     ] {
         let Some(library) = exact(name, edges, flags) else {
             return;
@@ -101,18 +103,10 @@ fn it_is_right_on_every_family_in_c_and_in_cpp_contracted_or_not() {
 
 #[test]
 fn what_is_made_ready_first_is_as_right() {
-    let c = ["-std=c99", "-pedantic", "-O2"];
-    let cpp = [
-        "-xc++",
-        "-std=c++17",
-        "-O3",
-        "-march=native",
-        "-ffp-contract=fast",
-    ];
     for (name, edges, flags) in [
-        ("prepared-closed", "CLOSED", &cpp[..]),
-        ("prepared-open", "OPEN", &c),
-        ("prepared-once", "ONCE", &c),
+        ("prepared-closed", "CLOSED", CPP),
+        ("prepared-open", "OPEN", C),
+        ("prepared-once", "ONCE", C),
     ] {
         let Some(library) = built("prepared", name, edges, flags) else {
             return;
@@ -309,8 +303,8 @@ fn its_margin_is_wider_than_what_is_proved_of_its_formula() {
     assert!((6.0..8.0).contains(&factor), "{factor}");
 }
 
-/// A program that includes a header, built with flags and run; its output.
-fn output_of(name: &str, program: &str, flags: &[&str]) -> Option<String> {
+/// A program that includes a header, built and run; its output.
+fn output_of(name: &str, program: &str) -> Option<String> {
     if !has("gcc") {
         not_tested("there is no 'gcc' on this machine");
         return None;
@@ -318,9 +312,16 @@ fn output_of(name: &str, program: &str, flags: &[&str]) -> Option<String> {
     let folder = scratch(name);
     std::fs::write(folder.join("program.c"), program).unwrap();
     let include = format!("-I{HERE}/include");
-    let words = ["-std=gnu99", &include, "-o", "program", "program.c", "-lm"];
+    let words = [
+        "-std=c99",
+        "-O2",
+        &include,
+        "-o",
+        "program",
+        "program.c",
+        "-lm",
+    ];
     let built = Command::new("gcc")
-        .args(flags)
         .args(words)
         .current_dir(&folder)
         .output()
@@ -352,7 +353,7 @@ int main(void) {
     return 0;
 }
 "#;
-    if let Some(said) = output_of("exact-far", program, &["-O2"]) {
+    if let Some(said) = output_of("exact-far", program) {
         assert_eq!(said, "1 1");
     }
 }
