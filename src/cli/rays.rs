@@ -1,14 +1,12 @@
 //! `hairline rays`: what rays really meet in a mesh, and what another program should have answered.
 
-mod answers;
 mod arguments;
 mod program;
-mod read;
 
 use super::before::set_threads;
 use super::exit::{Failure, Status};
 use super::flags::find_scalar;
-use super::input::read_mesh;
+use super::input::{open, read_mesh};
 use super::known::{KnownCounts, KnownSubject};
 use crate::arith::ScalarName;
 use crate::expect::RecordComparison;
@@ -19,10 +17,10 @@ use crate::report::{Format, write_junit};
 pub use arguments::RaysArguments;
 use arguments::{AnswerArguments, kinds};
 use hairline_rays::{
-    Answers, Asked, BadRay, FoundHits, JudgedRun, LocatedPoints, MadeRays, PlainProgram,
-    RaysResult, RaysScalar, more_right,
+    Answers, Asked, BadRay, FoundHits, JudgedRun, Judgements, LocatedPoints, MadeRays,
+    PlainProgram, RaysResult, RaysScalar, Text, answers, ray_of_words,
 };
-use hairline_scene::{Judgement, NoTargets, Ray, Scene, Targets};
+use hairline_scene::{Judgement, NoTargets, Ray, Scene};
 use std::time::Instant;
 
 /// The formats of judged answers.
@@ -97,7 +95,8 @@ impl RaysRun<'_> {
         }
         let scene = self.scene::<F>()?;
         if let Some(text) = &self.arguments.ray {
-            let ray = read::ray_of_words::<F>(text)?;
+            let ray = ray_of_words::<F>(text)
+                .map_err(|message| Failure::usage(format!("--ray: {message}")))?;
             let outputs = output.pairs(Format::OF_PAGE)?;
             let told = F::told(self.mesh, &scene, &ray)
                 .map_err(|error| Failure::usage(format!("--ray: {error}")))?;
@@ -154,14 +153,36 @@ impl RaysRun<'_> {
 
     fn judged_in(&self, scalar: Option<ScalarName>) -> Result<RaysResult, Failure> {
         match scalar {
-            Some(ScalarName::F32) => self.judged::<f32>(),
-            Some(ScalarName::F64) => self.judged::<f64>(),
+            Some(ScalarName::F32) => self.summary(&self.judged::<f32>()?),
+            Some(ScalarName::F64) => self.summary(&self.judged::<f64>()?),
             // A program that hairline runs computes in f64, and standard input is read once.
             None if self.arguments.program.is_given() || self.reads_standard_input() => {
-                self.judged::<f64>()
+                self.summary(&self.judged::<f64>()?)
             }
-            None => Ok(more_right(self.judged::<f64>()?, || self.judged::<f32>())),
+            None => self.judged_in_the_likelier_scalar(),
         }
+    }
+
+    /// In f64 if no answer is wrong there, or else in f32 if that explains more.
+    fn judged_in_the_likelier_scalar(&self) -> Result<RaysResult, Failure> {
+        let in_f64 = self.judged::<f64>()?;
+        if in_f64.tally.wrong == 0 {
+            return self.summary(&in_f64);
+        }
+        // Numbers that f32 does not hold are of a program that computes in f64.
+        let Ok(mut in_f32) = self.judged::<f32>() else {
+            return self.summary(&in_f64);
+        };
+        if !in_f64.tally.is_explained_better_by(&in_f32.tally) {
+            return self.summary(&in_f64);
+        }
+        let as_written = in_f64.right_as_written.unwrap_or(in_f64.tally.right);
+        in_f32.right_as_written = Some(as_written);
+        self.summary(&in_f32)
+    }
+
+    fn summary<F: RaysScalar>(&self, judgements: &Judgements<F>) -> Result<RaysResult, Failure> {
+        F::summary(judgements).map_err(|bad| self.bad(bad))
     }
 
     fn reads_standard_input(&self) -> bool {
@@ -175,7 +196,7 @@ impl RaysRun<'_> {
         files.into_iter().flatten().any(|file| file == "-")
     }
 
-    fn judged<F: RaysScalar>(&self) -> Result<RaysResult, Failure> {
+    fn judged<F: RaysScalar>(&self) -> Result<Judgements<'_, F>, Failure> {
         let scene = self.scene::<F>()?;
         let asked = self.asked::<F>()?;
         let program = match self.arguments.program.is_given() {
@@ -184,13 +205,13 @@ impl RaysRun<'_> {
         };
         let run = JudgedRun {
             mesh: self.mesh,
-            scene: &scene,
-            asked: &asked,
-            answers: &self.answers(&asked, program.as_ref())?,
-            program: program.as_ref(),
+            scene,
+            answers: self.answers(&asked, program.as_ref())?,
+            asked,
+            program,
             tells_each: self.tells_each,
         };
-        F::judged(&run).map_err(|bad| self.bad(bad))
+        F::judged(run).map_err(|bad| self.bad(bad))
     }
 
     /// The answers of a program that hairline runs, or else of a file.
@@ -203,7 +224,8 @@ impl RaysRun<'_> {
         let Some(program) = program else {
             let file = self.arguments.answered.answers.as_deref();
             let faces = self.mesh.triangles.len();
-            return answers::answers(file.unwrap_or_default(), kind, asked.count(), faces);
+            let text = text(file.unwrap_or_default())?;
+            return Ok(answers(text, kind, asked.count(), faces)?);
         };
         let Asked::Rays(rays) = asked else {
             return Err(Failure::usage("--kernel: it answers rays, not points"));
@@ -234,26 +256,23 @@ impl RaysRun<'_> {
         if let Some(count) = make {
             return Ok(Asked::Rays(self.made(*count)?));
         }
-        match points {
-            Some(file) => Ok(Asked::Points(read::points(file)?)),
-            None => Ok(Asked::Rays(read::rays(
-                rays.as_deref().unwrap_or_default(),
-            )?)),
-        }
+        Ok(match points {
+            Some(file) => Asked::Points(F::points_of(text(file)?)?),
+            None => Asked::Rays(F::rays_of(text(rays.as_deref().unwrap_or_default())?)?),
+        })
     }
 
     fn made<F: RaysScalar>(&self, count: u64) -> Result<Vec<Ray<F>>, Failure> {
         let kinds = kinds(&self.arguments.kinds)?;
-        let faces = 0..self.mesh.triangles.len();
-        let triangles = faces.map(|face| self.mesh.vertices(face)).collect();
-        let targets = Targets::<F>::new(triangles).map_err(|error| {
+        let seed = self.arguments.seed.unwrap_or(1);
+        let made = F::made(self.mesh, &kinds, count, seed);
+        made.map_err(|error| {
             let of_scalar = match error {
                 NoTargets::TooLarge => format!(" in {}", F::NAME),
                 NoTargets::NoSize => String::new(),
             };
-            InputError::of(&self.mesh.name, format!("{error}{of_scalar}"))
-        })?;
-        Ok(targets.rays(&kinds, count, self.arguments.seed.unwrap_or(1)))
+            InputError::of(&self.mesh.name, format!("{error}{of_scalar}")).into()
+        })
     }
 
     /// The failure of a ray or point that means nothing.
@@ -266,4 +285,12 @@ impl RaysRun<'_> {
         let file = rays.as_deref().unwrap_or(&self.mesh.name);
         InputError::of(file, format!("ray {index}, counted from 0: {error}")).into()
     }
+}
+
+/// A file of somebody else, to be read line by line.
+fn text(file: &str) -> Result<Text<'_>, Failure> {
+    Ok(Text {
+        name: file,
+        bytes: open(file)?,
+    })
 }

@@ -264,9 +264,7 @@ fn nearest<F: Float>(scene: &Scene<F>, ray: &Ray<F>) -> Result<(i64, f64, u32), 
     let face = nearest.faces[0];
     let t = match nearest.t.is_exact() {
         true => nearest.t.lower,
-        false => scene
-            .values(ray, face)?
-            .map_or(f64::NAN, |values| values.t[0]),
+        false => scene.t(ray, face)?.map_or(f64::NAN, |[first, _]| first),
     };
     Ok((face.into(), t, nearest.faces.len() as u32))
 }

@@ -72,11 +72,11 @@ fn found_by<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>) -> Result<FoundHit, Inval
             met: 0,
         });
     };
-    let values = scene.values(ray, nearest.faces[0])?;
+    let t = scene.t(ray, nearest.faces[0])?;
     let passages = scene.passages(ray)?;
     let hits = scene.hits(ray)?;
     Ok(FoundHit {
-        t: values.map(|values| values.t[0]),
+        t: t.map(|[first, _]| first),
         faces: nearest.faces,
         meetings: passages.len(),
         met: hits.iter().map(|hit| hit.faces.len()).sum(),

@@ -1,88 +1,78 @@
-//! The answers of a program, judged and counted, with the worst of them.
+//! The answers of a program, judged by the reading of its rays that explains most.
 
-use crate::asked::{AnswerKind, Answers, Asked, BadRay, of_all};
-use crate::blame::{HitOfRay, lost_hits};
-use crate::case::Case;
-use crate::corpus::lines::AnyCase;
-use crate::files::hex;
+use crate::asked::{Asked, BadRay};
 use crate::kernel::Scalar;
-use crate::plain::{self, PlainProgram};
-use crate::record::number_of;
-use crate::result::{JudgementCount, RaysResult, WithoutBoxes, WrongRays, mesh_label};
-use crate::scalar::JudgedRun;
-use crate::told::{each, worst};
-use hairline_scene::{Judged, Judgement, Ray};
-use hmac_sha256::Hash;
-
-/// The fewest faces by which a shift of their numbers is known.
-const FEWEST: usize = 5;
+use crate::run::{JudgedRun, Judgements, Tally, cases_label};
+use hairline_scene::Ray;
 
 /// Judges answers, by the rays as they are, or with directions of length 1 if more are right then: as a program has it that makes them
 /// so, or one that multiplies t alone.
-pub fn judged<F: Scalar>(run: &JudgedRun<F>) -> Result<RaysResult, BadRay>
-where
-    Case<F>: Into<AnyCase>,
-{
-    let as_written = counted(run)?;
-    let wrong_t = as_written.count(Judgement::WrongT);
-    if wrong_t == 0 {
-        return Ok(as_written);
+pub fn judged<F: Scalar>(run: JudgedRun<F>) -> Result<Judgements<F>, BadRay> {
+    let judged = run.asked.judged(&run.scene, &run.answers)?;
+    let as_written = Judgements {
+        tally: Tally::of(&judged),
+        has_unit_directions: false,
+        right_as_written: None,
+        cases: cases_label(&run.asked),
+        judged,
+        run,
+    };
+    match as_written.tally.wrong_t {
+        0 => Ok(as_written),
+        _ => with_unit_directions(as_written),
     }
+}
+
+/// The same with directions of length 1, if that explains more.
+fn with_unit_directions<F: Scalar>(as_written: Judgements<F>) -> Result<Judgements<F>, BadRay> {
+    let Judgements { run, tally, .. } = &as_written;
     let rays = run.asked.rays();
     let units: Option<Vec<Ray<F>>> = rays.iter().map(with_unit_direction).collect();
     let Some(units) = units else {
         return Ok(as_written);
     };
+    let units = Asked::Rays(units);
     let lengths: Vec<f64> = rays.iter().map(length_of).collect();
-    let by_length = counted(&JudgedRun {
-        answers: &run.answers.with_t_divided(&lengths),
-        ..*run
-    })?;
-    let by_units = counted(&JudgedRun {
-        asked: &Asked::Rays(units),
-        ..*run
-    })?;
-    let with_units = match by_units.right_hits < by_length.right_hits {
-        true => by_length,
-        false => by_units,
+    let divided = run.answers.with_t_divided(&lengths);
+    let by_length = run.asked.judged(&run.scene, &divided)?;
+    let by_units = units.judged(&run.scene, &run.answers)?;
+    let tallies = [&by_length, &by_units].map(|judged| Tally::of(judged));
+    let has_units = tallies[0].right_hits <= tallies[1].right_hits;
+    let better = match has_units {
+        true => tallies[1],
+        false => tallies[0],
     };
     // A program that loses rays at edges is right more often by any rays that are rounded: t has to be better too.
-    let is_better = as_written.right_hits < with_units.right_hits
-        && 2 * with_units.count(Judgement::WrongT) < wrong_t;
-    Ok(match is_better {
-        true => RaysResult {
-            has_unit_directions: true,
-            right_as_written: Some(as_written.right_count()),
-            cases: as_written.cases,
-            ..with_units
-        },
-        false => as_written,
-    })
-}
-
-/// The judgements in f64 if none is wrong there, or else in f32 if that explains more: most programs compute in one of the two,
-/// and name the exact face most often by the numbers that they have.
-pub fn more_right<E>(
-    in_f64: RaysResult,
-    in_f32: impl FnOnce() -> Result<RaysResult, E>,
-) -> RaysResult {
-    if in_f64.wrong_count() == 0 {
-        return in_f64;
+    let explains_more = tally.right_hits < better.right_hits && 2 * better.wrong_t < tally.wrong_t;
+    if !explains_more {
+        return Ok(as_written);
     }
-    // Numbers that f32 does not hold are of a program that computes in f64.
-    let Ok(in_f32) = in_f32() else {
-        return in_f64;
+    let right_as_written = Some(tally.right);
+    let Judgements { run, cases, .. } = as_written;
+    let (run, judged) = match has_units {
+        true => {
+            let run = JudgedRun {
+                asked: units,
+                ..run
+            };
+            (run, by_units)
+        }
+        false => {
+            let run = JudgedRun {
+                answers: divided,
+                ..run
+            };
+            (run, by_length)
+        }
     };
-    // Misses tell nothing: a mesh that f32 does not hold has no hits there. Silhouettes that are left out are neither right nor wrong.
-    let explains_more =
-        in_f64.right_hits < in_f32.right_hits && in_f32.wrong_count() <= in_f64.wrong_count();
-    match explains_more {
-        true => RaysResult {
-            right_as_written: in_f64.right_as_written.or(Some(in_f64.right_count())),
-            ..in_f32
-        },
-        false => in_f64,
-    }
+    Ok(Judgements {
+        run,
+        judged,
+        tally: better,
+        has_unit_directions: true,
+        right_as_written,
+        cases,
+    })
 }
 
 /// The ray of a program that makes directions of length 1 first; none if floats do not hold it.
@@ -100,201 +90,4 @@ fn with_unit_direction<F: Scalar>(ray: &Ray<F>) -> Option<Ray<F>> {
 fn length_of<F: Scalar>(ray: &Ray<F>) -> f64 {
     let [x, y, z] = ray.direction.map(F::to_f64);
     x.hypot(y).hypot(z)
-}
-
-fn counted<F: Scalar>(run: &JudgedRun<F>) -> Result<RaysResult, BadRay>
-where
-    Case<F>: Into<AnyCase>,
-{
-    let judged = run.asked.judged(run.scene, run.answers)?;
-    let lost = hits_of(run, &judged, is_of_a_lost_hit);
-    let found = hits_of(run, &judged, Judgement::is_right);
-    let right_hits = found.len() as u64;
-    let mut lost = lost_hits(run.mesh, run.scene, &lost, &found);
-    lost.without_boxes = without_boxes(run, &judged)?;
-    Ok(RaysResult {
-        mesh: mesh_label(run.mesh),
-        cases: cases_label(run.asked),
-        program: run.program.map(PlainProgram::label),
-        kind: run.answers.kind(),
-        scalar: F::NAME,
-        has_unit_directions: false,
-        asked: judged.len() as u64,
-        counts: Judgement::ALL
-            .into_iter()
-            .map(|kind| counted_as(kind, &judged))
-            .collect(),
-        right_as_written: None,
-        shift: shift(run.answers, &judged),
-        lost,
-        wrong_rays: wrong_rays(run, &judged)?,
-        worst: worst(run, &judged)?,
-        right_hits,
-        each: match run.tells_each {
-            true => each(run, &judged)?,
-            false => Vec::new(),
-        },
-    })
-}
-
-/// The rays whose answers have a judgement, with their numbers.
-fn rays_of<'a, F: Scalar>(
-    run: &'a JudgedRun<F>,
-    judged: &'a [Judged],
-    is_meant: impl Fn(Judgement) -> bool,
-) -> Vec<(usize, &'a Ray<F>)> {
-    let all = run.asked.rays().iter().enumerate();
-    all.filter(|(index, _)| is_meant(judged[*index].judgement))
-        .collect()
-}
-
-/// How the rays of wrong answers meet the mesh: of a nearest hit there, of others anywhere.
-fn wrong_rays<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<WrongRays, BadRay> {
-    let wrong = rays_of(run, judged, Judgement::is_wrong);
-    let mut counts = WrongRays::default();
-    let meets_first_alone = matches!(run.answers.kind(), AnswerKind::Nearest | AnswerKind::Any);
-    let passages = of_all(wrong.len(), |i| run.scene.passages(wrong[i].1));
-    let passages = passages.map_err(|bad| BadRay {
-        index: wrong[bad.index].0,
-        ..bad
-    })?;
-    for mut passages in passages {
-        let is_in_plane = passages.iter().any(|it| it.is_segment);
-        if meets_first_alone {
-            passages.truncate(1);
-        }
-        let is_at_edge = passages.iter().any(|it| 1 < it.faces.len());
-        let count = match passages.is_empty() {
-            true => &mut counts.nothing,
-            false if is_in_plane => &mut counts.in_plane,
-            false if is_at_edge => &mut counts.at_edge,
-            false => &mut counts.inside,
-        };
-        *count += 1;
-    }
-    Ok(counts)
-}
-
-/// The most faces that are asked about to see what a program loses without boxes, of all rays together.
-const ASKED: usize = 30_000_000;
-
-/// The rays that a plain program with boxes loses, traced again without boxes.
-fn without_boxes<F: Scalar>(
-    run: &JudgedRun<F>,
-    judged: &[Judged],
-) -> Result<Option<WithoutBoxes>, BadRay>
-where
-    Case<F>: Into<AnyCase>,
-{
-    let Some(program) = run.program.filter(|program| program.box_test.is_some()) else {
-        return Ok(None);
-    };
-    let lost = rays_of(run, judged, is_of_a_lost_hit);
-    let most = ASKED / run.mesh.triangles.len().max(1);
-    let step = lost.len().div_ceil(most.max(1)).max(1);
-    let rays: Vec<Ray<F>> = lost.iter().step_by(step).map(|(_, ray)| **ray).collect();
-    let plain = PlainProgram {
-        kernel: program.kernel.clone(),
-        box_test: None,
-    };
-    let Ok(answers) = plain::answered(&plain, run.mesh, &rays) else {
-        return Ok(None);
-    };
-    let judged = Asked::Rays(rays).judged(run.scene, &answers)?;
-    let lost = judged.iter().filter(|it| is_of_a_lost_hit(it.judgement));
-    Ok(Some(WithoutBoxes {
-        tried: judged.len() as u64,
-        lost: lost.count() as u64,
-    }))
-}
-
-/// The exact hits of rays whose answers have a judgement.
-fn hits_of<'a, F: Scalar>(
-    run: &'a JudgedRun<F>,
-    judged: &'a [Judged],
-    is_meant: impl Fn(Judgement) -> bool,
-) -> Vec<HitOfRay<'a, F>> {
-    let mut hits = Vec::new();
-    for (ray, judged) in run.asked.rays().iter().zip(judged) {
-        if let Some(hit) = judged.hit.as_ref().filter(|_| is_meant(judged.judgement)) {
-            hits.push(HitOfRay { ray, hit });
-        }
-    }
-    hits
-}
-
-/// True if the exact hit is missed, or another face is named in its place. Which hits a count leaves out is not known.
-fn is_of_a_lost_hit(judgement: Judgement) -> bool {
-    matches!(
-        judgement,
-        Judgement::Lost | Judgement::Farther | Judgement::Ghost
-    )
-}
-
-/// The number of the rays or points, and a digest of their numbers.
-fn cases_label<F: Scalar>(asked: &Asked<F>) -> String {
-    let count = asked.count() as u64;
-    let (name, numbers): (String, Vec<F>) = match asked {
-        Asked::Rays(rays) => {
-            let numbers = rays.iter().flat_map(|ray| {
-                let vectors = ray.origin.into_iter().chain(ray.direction);
-                vectors.chain([ray.t_min, ray.t_max])
-            });
-            (number_of(count, "ray", "rays"), numbers.collect())
-        }
-        Asked::Points(points) => {
-            let numbers = points.iter().flatten().copied();
-            (number_of(count, "point", "points"), numbers.collect())
-        }
-    };
-    let mut hash = Hash::new();
-    for number in numbers {
-        hash.update(number.to_f64().to_bits().to_le_bytes());
-    }
-    let digest = hex(&hash.finalize());
-    format!("{name}, {}", &digest[..8])
-}
-
-fn counted_as(judgement: Judgement, judged: &[Judged]) -> JudgementCount {
-    let of_kind = judged.iter().filter(|it| it.judgement == judgement);
-    // A silhouette that is left out is as far from what is answered as you like, and nobody sees it.
-    let wrong = of_kind.clone().filter(|it| it.judgement.is_wrong());
-    let mut off: Vec<f64> = wrong.filter_map(|it| it.off.map(f64::abs)).collect();
-    off.sort_by(f64::total_cmp);
-    JudgementCount {
-        judgement,
-        count: of_kind.count() as u64,
-        median_off: off.get(off.len() / 2).copied(),
-        most_off: off.last().copied(),
-    }
-}
-
-/// The shift of face numbers with which most faces are right, and more than without: of a program that counts from 1, for
-/// example.
-fn shift(answers: &Answers, judged: &[Judged]) -> Option<i64> {
-    let Answers::Nearest(answers) = answers else {
-        return None;
-    };
-    let mut named = Vec::new();
-    for (judged, answer) in judged.iter().zip(answers) {
-        if let (Some(hit), Some(face)) = (&judged.hit, answer.face) {
-            named.push((&hit.faces, face));
-        }
-    }
-    let right = |shift: i64| {
-        let is_right = |face: u32, nearest: &[u32]| {
-            let shifted = u32::try_from(i64::from(face) + shift);
-            shifted.is_ok_and(|face| nearest.contains(&face))
-        };
-        let right = named
-            .iter()
-            .filter(|(nearest, face)| is_right(*face, nearest));
-        right.count()
-    };
-    let as_written = right(0);
-    let is_most = |shift: &i64| {
-        let shifted = right(*shift);
-        as_written + FEWEST <= shifted && named.len() < 2 * shifted
-    };
-    [-1, 1].into_iter().find(is_most)
 }

@@ -26,6 +26,9 @@ mod made;
 mod picture;
 mod plain;
 mod result;
+mod text;
+
+mod run;
 
 mod blame;
 mod told;
@@ -35,16 +38,18 @@ mod judged;
 mod one;
 mod page;
 mod points;
+mod summary;
 
 mod scalar;
 
 pub use asked::{AnswerKind, Answers, Asked, BadRay};
 pub use found::FoundHits;
-pub use judged::more_right;
 pub use made::MadeRays;
 pub use one::RayTold;
 pub use plain::PlainProgram;
 pub use points::LocatedPoints;
 pub use result::{RaysResult, mesh_label};
-pub use scalar::{JudgedRun, RaysScalar};
+pub use run::{JudgedRun, Judgements, Tally};
+pub use scalar::RaysScalar;
+pub use text::{Text, answers, ray_of_words};
 pub use told::pictured;

@@ -1,9 +1,10 @@
 //! Rays at a mesh as a file, to ask a program about.
 
+use crate::files::mesh::Mesh;
 use crate::files::number;
 use crate::kernel::Scalar;
 use crate::report::Format;
-use hairline_scene::Ray;
+use hairline_scene::{NoTargets, Ray, RayKind, Targets};
 use std::io::{self, Write};
 
 /// Rays that were made.
@@ -25,4 +26,16 @@ impl<F: Scalar> MadeRays<F> {
         }
         Ok(())
     }
+}
+
+/// Rays of some kinds at a mesh, so many in all. An error if its triangles have no size, or are too large for the scalar.
+pub fn made<F: Scalar>(
+    mesh: &Mesh,
+    kinds: &[RayKind],
+    count: u64,
+    seed: u64,
+) -> Result<Vec<Ray<F>>, NoTargets> {
+    let faces = 0..mesh.triangles.len();
+    let triangles = faces.map(|face| mesh.vertices(face)).collect();
+    Ok(Targets::new(triangles)?.rays(kinds, count, seed))
 }

@@ -48,9 +48,6 @@ pub struct RaysResult {
     pub wrong_rays: WrongRays,
     /// The worst answers.
     pub worst: Vec<WrongAnswer>,
-    /// How many right answers name a face, or tell of a hit that there is.
-    #[serde(skip)]
-    pub right_hits: u64,
     /// Every answer, if it was asked for. A record has the counts alone.
     #[serde(skip)]
     pub each: Vec<EachAnswer>,

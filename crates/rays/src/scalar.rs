@@ -1,38 +1,41 @@
 //! The doors of this crate, one a scalar: what takes long is compiled behind them, where code is optimised for speed.
 
-use crate::asked::{Answers, Asked, BadRay};
+use crate::asked::{Answers, BadRay};
 use crate::case::Case;
 use crate::corpus::lines::AnyCase;
+use crate::files::InputError;
 use crate::files::mesh::Mesh;
 use crate::found::{self, FoundHits};
 use crate::judged;
 use crate::kernel::Scalar;
+use crate::made;
 use crate::one::{self, RayTold};
 use crate::plain::{self, PlainProgram};
 use crate::points::{self, LocatedPoints};
 use crate::result::RaysResult;
-use hairline_scene::{InvalidRay, MeshError, Ray, Scene};
-
-/// Rays or points at a mesh, with a program's answers.
-pub struct JudgedRun<'a, F: Scalar> {
-    /// The mesh.
-    pub mesh: &'a Mesh,
-    /// The same as a scene.
-    pub scene: &'a Scene<F>,
-    /// The questions.
-    pub asked: &'a Asked<F>,
-    /// As many answers.
-    pub answers: &'a Answers,
-    /// Who answered, if hairline ran it.
-    pub program: Option<&'a PlainProgram>,
-    /// True if each answer is told beside the truth, for CSV: exact values take time.
-    pub tells_each: bool,
-}
+use crate::run::{JudgedRun, Judgements};
+use crate::summary;
+use crate::text::{self, Text};
+use hairline_scene::{InvalidRay, MeshError, NoTargets, Ray, RayKind, Scene};
 
 /// A scalar in which a mesh is asked about.
 pub trait RaysScalar: Scalar + Sized {
     /// The triangles of a mesh as a scene.
     fn scene(mesh: &Mesh) -> Result<Scene<Self>, MeshError>;
+
+    /// The rays of a file.
+    fn rays_of(text: Text) -> Result<Vec<Ray<Self>>, InputError>;
+
+    /// The points of a file.
+    fn points_of(text: Text) -> Result<Vec<[Self; 3]>, InputError>;
+
+    /// Rays of some kinds at a mesh, so many in all.
+    fn made(
+        mesh: &Mesh,
+        kinds: &[RayKind],
+        count: u64,
+        seed: u64,
+    ) -> Result<Vec<Ray<Self>>, NoTargets>;
 
     /// Everything that one ray meets.
     fn told(mesh: &Mesh, scene: &Scene<Self>, ray: &Ray<Self>) -> Result<RayTold, InvalidRay>;
@@ -48,7 +51,10 @@ pub trait RaysScalar: Scalar + Sized {
     -> Result<Answers, String>;
 
     /// Answers, judged.
-    fn judged(run: &JudgedRun<Self>) -> Result<RaysResult, BadRay>;
+    fn judged(run: JudgedRun<Self>) -> Result<Judgements<Self>, BadRay>;
+
+    /// What is told of judged answers.
+    fn summary(judgements: &Judgements<Self>) -> Result<RaysResult, BadRay>;
 }
 
 macro_rules! implement {
@@ -56,6 +62,23 @@ macro_rules! implement {
         impl RaysScalar for $scalar {
             fn scene(mesh: &Mesh) -> Result<Scene<Self>, MeshError> {
                 scene_of(mesh)
+            }
+
+            fn rays_of(text: Text) -> Result<Vec<Ray<Self>>, InputError> {
+                text::rays(text)
+            }
+
+            fn points_of(text: Text) -> Result<Vec<[Self; 3]>, InputError> {
+                text::points(text)
+            }
+
+            fn made(
+                mesh: &Mesh,
+                kinds: &[RayKind],
+                count: u64,
+                seed: u64,
+            ) -> Result<Vec<Ray<Self>>, NoTargets> {
+                made::made(mesh, kinds, count, seed)
             }
 
             fn told(
@@ -82,8 +105,12 @@ macro_rules! implement {
                 plain::answered(program, mesh, rays)
             }
 
-            fn judged(run: &JudgedRun<Self>) -> Result<RaysResult, BadRay> {
+            fn judged(run: JudgedRun<Self>) -> Result<Judgements<Self>, BadRay> {
                 judged::judged(run)
+            }
+
+            fn summary(judgements: &Judgements<Self>) -> Result<RaysResult, BadRay> {
+                summary::summary(judgements)
             }
         }
     };

@@ -9,7 +9,7 @@ use crate::picture;
 use crate::record::{group_digits, number_of};
 use crate::report::page::Picture;
 use crate::result::{EachAnswer, WrongAnswer, short};
-use crate::scalar::JudgedRun;
+use crate::run::JudgedRun;
 use crate::single::{explain_command, faces_in_words};
 use hairline_scene::{Answer, InvalidRay, Judged, Judgement, Location, Nearest, Ray, Scene};
 
@@ -51,8 +51,8 @@ fn told<F: Scalar>(
 where
     Case<F>: Into<AnyCase>,
 {
-    let (scene, answers) = (run.scene, run.answers);
-    let (text, picture) = match run.asked {
+    let (scene, answers) = (&run.scene, &run.answers);
+    let (text, picture) = match &run.asked {
         Asked::Rays(rays) => {
             let ray = &rays[index];
             let truth = truth_of_ray(scene, ray, answers, judged)?;
@@ -117,14 +117,14 @@ fn command<F: Scalar>(run: &JudgedRun<F>, index: usize, judged: &Judged) -> Opti
 where
     Case<F>: Into<AnyCase>,
 {
-    let is_about_a_face = matches!(run.answers, Answers::Nearest(_) | Answers::Any(_));
+    let is_about_a_face = matches!(&run.answers, Answers::Nearest(_) | Answers::Any(_));
     let is_lost = judged.judgement == Judgement::Lost;
     if !is_about_a_face && !is_lost {
         return None;
     }
     let ray = run.asked.rays().get(index)?;
     let nearest = judged.hit.as_ref().map(|it| it.faces[0]);
-    let named = match run.answers {
+    let named = match &run.answers {
         Answers::Nearest(all) => all[index].face,
         _ => None,
     };
@@ -166,9 +166,9 @@ fn nearest_in_words<F: Float>(
     let Some(nearest) = nearest else {
         return Ok("no face is hit".to_owned());
     };
-    let values = scene.values(ray, nearest.faces[0])?;
+    let t = scene.t(ray, nearest.faces[0])?;
     let faces = faces_in_words(&nearest.faces, MEETINGS);
-    let t = values.map_or(String::new(), |values| format!(" at t = {:?}", values.t[0]));
+    let t = t.map_or(String::new(), |[first, _]| format!(" at t = {first:?}"));
     Ok(format!("the nearest is {faces}{t}"))
 }
 
@@ -211,14 +211,14 @@ pub fn each<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<Vec<Each
             off,
         } = &judged[index];
         let faces = hit.as_ref().map_or(Vec::new(), |hit| hit.faces.clone());
-        let values = match (run.asked.rays().get(index), faces.first()) {
-            (Some(ray), Some(face)) => run.scene.values(ray, *face)?,
+        let t = match (run.asked.rays().get(index), faces.first()) {
+            (Some(ray), Some(face)) => run.scene.t(ray, *face)?,
             _ => None,
         };
         Ok(EachAnswer {
             judgement: *judgement,
             faces,
-            t: values.map(|values| values.t[0]),
+            t: t.map(|[first, _]| first),
             answered: run.answers.in_short(index),
             answered_t: run.answers.t(index),
             off: *off,

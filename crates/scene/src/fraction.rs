@@ -1,6 +1,7 @@
 //! An exact t: a fraction of integers and a power of two, of 128 bits or of any size.
 
 use crate::bounds::Bounds;
+use crate::rounded::rounded_quotient;
 use hairline_core::arith::scale_by_power_of_two;
 use hairline_core::oracle::integer::{ExactInteger, Integer, RayInterval};
 use num_bigint::BigInt;
@@ -112,6 +113,15 @@ impl Parameter {
         }
     }
 
+    /// The nearest double; an infinite end is itself.
+    pub fn nearest_double(&self) -> f64 {
+        match self {
+            Parameter::Small(fraction) => fraction.big().nearest_double(),
+            Parameter::Large(fraction) => fraction.nearest_double(),
+            Parameter::End(end) => *end,
+        }
+    }
+
     /// As a rational; none of an infinite end.
     pub fn rational(&self) -> Option<BigRational> {
         match self {
@@ -133,6 +143,10 @@ impl Fraction<i128> {
 }
 
 impl Fraction<BigInt> {
+    fn nearest_double(&self) -> f64 {
+        rounded_quotient(&self.numerator, &self.denominator, self.exponent)
+    }
+
     fn rational(&self) -> BigRational {
         let power = BigInt::one() << self.exponent.unsigned_abs();
         if self.exponent < 0 {

@@ -144,7 +144,7 @@ impl<F: Float> Instances<F> {
     }
 
     /// The same as the nearest doubles.
-    pub fn values(&self, ray: &Ray<F>, face: PlacedFace) -> Result<Option<[f64; 2]>, InvalidRay> {
+    pub fn t(&self, ray: &Ray<F>, face: PlacedFace) -> Result<Option<[f64; 2]>, InvalidRay> {
         let exact = self.fractions(ray, face)?;
         Ok(exact.map(|ends| ends.each_ref().map(rounded)))
     }

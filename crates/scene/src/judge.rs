@@ -124,10 +124,10 @@ impl<F: Float> Scene<F> {
             Some(face) if nearest.faces.contains(&face) => {
                 self.of_nearest(ray, &nearest, answer)?
             }
-            Some(face) => match self.values(ray, face)? {
+            Some(face) => match self.t(ray, face)? {
                 None => self.of_unmet(ray, &nearest, face, answer.t)?,
-                Some(values) => {
-                    let behind = self.behind(ray, &nearest, values.t[0])?;
+                Some([first, _]) => {
+                    let behind = self.behind(ray, &nearest, first)?;
                     // Near an edge the ray may meet both faces, one just behind the other.
                     match behind.is_some_and(|behind| behind <= VISIBLE) {
                         true => (Judgement::Neighbour, behind),
@@ -198,11 +198,10 @@ impl<F: Float> Scene<F> {
 
     /// True if a ray meets a face at a t, as near as anybody sees; at any t, if none is given.
     fn is_at(&self, ray: &Ray<F>, face: u32, t: Option<f64>) -> Result<bool, InvalidRay> {
-        let (Some(values), Some(t)) = (self.values(ray, face)?, t) else {
+        let (Some([first, last]), Some(t)) = (self.t(ray, face)?, t) else {
             return Ok(t.is_none());
         };
         let hair = self.hair(ray, face);
-        let [first, last] = values.t;
         Ok((first - hair..=last + hair).contains(&t))
     }
 }

@@ -7,12 +7,20 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 /// The nearest double to a rational, ties to even: correctly rounded, subnormal numbers and overflow included.
 pub fn rounded(x: &BigRational) -> f64 {
-    let size = size_rounded(x.numer().abs(), x.denom().clone());
-    if x.is_negative() { -size } else { size }
+    rounded_quotient(x.numer(), x.denom(), 0)
+}
+
+/// The same for a quotient of integers times 2 to a power. The denominator is positive, and may have a factor in common with the numerator.
+pub fn rounded_quotient(numerator: &BigInt, denominator: &BigInt, exponent: i64) -> f64 {
+    let size = size_rounded(numerator.abs(), denominator.clone(), exponent);
+    match numerator.is_negative() {
+        true => -size,
+        false => size,
+    }
 }
 
 /// The same for a numerator that is not negative.
-fn size_rounded(mut numerator: BigInt, mut denominator: BigInt) -> f64 {
+fn size_rounded(mut numerator: BigInt, mut denominator: BigInt, exponent: i64) -> f64 {
     if numerator.is_zero() {
         return 0.0;
     }
@@ -23,11 +31,11 @@ fn size_rounded(mut numerator: BigInt, mut denominator: BigInt) -> f64 {
     } else {
         denominator <<= -shift;
     }
-    let quotient = (&numerator / &denominator).to_u64();
-    let quotient = quotient.expect("a quotient of 56 bits at most");
-    let is_inexact = !(numerator % denominator).is_zero();
+    let quotient = &numerator / &denominator;
+    let is_inexact = &quotient * denominator != numerator;
+    let quotient = quotient.to_u64().expect("a quotient of 56 bits at most");
     let digits = quotient << 1 | u64::from(is_inexact);
-    let unit = -shift - 1;
+    let unit = exponent - shift - 1;
     // The unit in the last place of the result.
     let leading = unit + 63 - i64::from(digits.leading_zeros());
     let last = (leading - 52).max(-1074);

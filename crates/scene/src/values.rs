@@ -1,6 +1,6 @@
 //! The numbers of a hit, exactly or correctly rounded.
 
-use crate::found::{Common, End};
+use crate::found::{Common, End, Found};
 use crate::passage::Passage;
 use crate::ray::{InvalidRay, Ray};
 use crate::rounded::rounded;
@@ -61,15 +61,32 @@ impl<F: Float> Scene<F> {
         }))
     }
 
+    /// The first and the last t of a face's hit as the nearest doubles; equal if there is only one point. None if the ray does not
+    /// meet the face; an error if the ray means nothing.
+    pub fn t(&self, ray: &Ray<F>, face: u32) -> Result<Option<[f64; 2]>, InvalidRay> {
+        let ray = ray.checked()?;
+        let query = self.query(ray);
+        let Some(place) = self.place_of(face) else {
+            return Ok(None);
+        };
+        let found = query.meet(place, &self.triangle_at(place), f64::INFINITY);
+        let order = self.order(&query);
+        let nearest = |found: &Found, end: End| match found.bounds(end) {
+            bounds if bounds.is_exact() => bounds.lower,
+            _ => order.parameter(found, end).nearest_double(),
+        };
+        Ok(found.map(|found| [End::From, End::To].map(|end| nearest(&found, end))))
+    }
+
     /// The first and the last t of a passage as the nearest doubles. An error if the ray means nothing.
     pub fn ends(&self, ray: &Ray<F>, passage: &Passage) -> Result<[f64; 2], InvalidRay> {
         // A passage may begin before the interval, or end behind it.
         let line = ray.on(-F::infinity(), F::infinity());
         let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
         for face in &passage.faces {
-            if let Some(values) = self.values(&line, *face)? {
+            if let Some([first, last]) = self.t(&line, *face)? {
                 // Rounding keeps the order.
-                ends = [ends[0].min(values.t[0]), ends[1].max(values.t[1])];
+                ends = [ends[0].min(first), ends[1].max(last)];
             }
         }
         Ok(ends)

@@ -120,8 +120,8 @@ impl<F: Float> Scene<F> {
             true => t - lower.midpoint(upper),
             // The bounds are too wide to say it.
             false => {
-                let exact = self.values(ray, nearest.faces[0])?;
-                exact.map_or(f64::NAN, |exact| t - exact.t[0])
+                let exact = self.t(ray, nearest.faces[0])?;
+                exact.map_or(f64::NAN, |[first, _]| t - first)
             }
         };
         // Faces that are points have no edge to measure by.

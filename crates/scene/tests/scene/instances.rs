@@ -163,7 +163,7 @@ fn a_singular_matrix_makes_faces_flat() {
     let at_side = Ray::new([2.0, 0.25, 5.0], [0.0, 0.0, -1.0]);
     let faces = &scene.hits(&at_side).unwrap()[0].faces;
     assert_eq!(faces.len(), 4);
-    assert_eq!(scene.values(&at_side, faces[0]), Ok(Some([4.0; 2])));
+    assert_eq!(scene.t(&at_side, faces[0]), Ok(Some([4.0; 2])));
     // Along the plane.
     let along = Ray::new([-5.0, 0.25, 1.0], [1.0, 0.0, 0.0]);
     assert!(scene.hits(&along).unwrap().iter().any(|hit| hit.is_segment));

@@ -52,6 +52,30 @@ fn the_point_of_t_is_the_point_of_the_weights() {
 }
 
 #[test]
+fn the_nearest_doubles_of_t_are_those_of_its_fractions() {
+    let [mut crossings, mut segments] = [0, 0];
+    for index in 0..4000 {
+        let mut draw = Draw::new("nearest t", 1, index);
+        let scale = draw.pick(&[1.0, 1e-300, 1e150, f64::from(2f32.powi(-90))]);
+        let vertices: [[f64; 3]; 3] = [(); 3].map(|()| draw.point().map(|x: f64| x * scale));
+        let scene = Scene::new(&vertices, &[[0, 1, 2]]).unwrap();
+        let [a, b, c] = vertices;
+        // At the middle of an edge from anywhere, or from one corner through another.
+        let middle = [0, 1, 2].map(|i| (a[i] + b[i]) / 2.0);
+        let anywhere: [f64; 3] = draw.point().map(|x: f64| x * scale);
+        let (origin, target) = draw.pick(&[(anywhere, middle), (a, b), (c, a)]);
+        let ray = Ray::new(origin, [0, 1, 2].map(|i| target[i] - origin[i]));
+        let ray = draw.pick(&[ray, ray.on(0.0, 0.75), ray.on(1.0 / 3.0, 1e300)]);
+        let exact = scene.fractions(&ray, 0).unwrap();
+        let nearest = exact.as_ref().map(|exact| exact.t.each_ref().map(rounded));
+        assert_eq!(scene.t(&ray, 0).unwrap(), nearest, "{ray:?}");
+        crossings += u32::from(exact.as_ref().is_some_and(|it| it.facing.is_some()));
+        segments += u32::from(exact.is_some_and(|it| it.t[0] != it.t[1]));
+    }
+    assert!(100 < crossings && 100 < segments, "{crossings} {segments}");
+}
+
+#[test]
 fn what_is_no_mesh_and_no_ray_is_named() {
     let missing = MeshError::NoSuchVertex { face: 1, vertex: 2 };
     let vertices = [[0.0f32; 3]; 2];

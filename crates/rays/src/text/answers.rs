@@ -1,14 +1,12 @@
 //! The answers of a program in a file: one a line in the order of the rays, or of all hits one hit a line.
 
-use super::read::{LONGEST_LINE, is_head, json_number, lines, without_mark, words};
-use crate::cli::exit::Failure;
-use crate::cli::input::open;
+use super::Text;
+use super::line::{is_head, json_number, words};
+use crate::asked::{AnswerKind, Answers};
 use crate::files::InputError;
 use crate::files::json::{self, Object};
-use crate::files::text_lines::TextLines;
-use hairline_rays::{AnswerKind, Answers};
 use hairline_scene::{Answer, NamedHit, NamedPlace};
-use std::io::BufReader;
+use std::cell::Cell;
 
 /// The words of programs for no face: a signed and an unsigned -1.
 const NO_FACE: [&str; 6] = ["-1", "4294967295", "none", "null", "miss", ""];
@@ -21,37 +19,42 @@ const YES: [&str; 3] = ["1", "true", "hit"];
 const NO: [&str; 3] = ["0", "false", "miss"];
 
 /// The answers of a file to so many rays or points, at a mesh of so many faces.
-pub(super) fn answers(
-    file: &str,
+pub fn answers(
+    text: Text,
     kind: AnswerKind,
     asked: usize,
     faces: usize,
-) -> Result<Answers, Failure> {
+) -> Result<Answers, InputError> {
     let rays = format!("{asked} rays");
     let points = format!("{asked} points");
     let answers = match kind {
         AnswerKind::Nearest => {
             let read = |line: &str| nearest(line, faces);
-            Answers::Nearest(one_a_line(file, asked, &rays, read)?)
+            Answers::Nearest(one_a_line(text, asked, &rays, read)?)
         }
-        AnswerKind::Any => Answers::Any(one_a_line(file, asked, &rays, any)?),
-        AnswerKind::All => Answers::All(all(file, asked, faces)?),
-        AnswerKind::Count => Answers::Count(one_a_line(file, asked, &rays, count)?),
-        AnswerKind::Inside => Answers::Inside(one_a_line(file, asked, &points, place)?),
+        AnswerKind::Any => Answers::Any(one_a_line(text, asked, &rays, any)?),
+        AnswerKind::All => Answers::All(all(text, asked, faces)?),
+        AnswerKind::Count => Answers::Count(one_a_line(text, asked, &rays, count)?),
+        AnswerKind::Inside => Answers::Inside(one_a_line(text, asked, &points, place)?),
     };
     Ok(answers)
 }
 
 fn one_a_line<T>(
-    file: &str,
+    text: Text,
     asked: usize,
     questions: &str,
     read: impl Fn(&str) -> Result<T, String>,
-) -> Result<Vec<T>, Failure> {
-    let is_only_a_head = |line: &str| is_head(line) && read(line).is_err();
-    let mut answers = lines(file, "answers", is_only_a_head, &read)?;
+) -> Result<Vec<T>, InputError> {
+    let name = text.name;
+    let may_be_head = Cell::new(false);
+    let is_only_a_head = |first: &str| {
+        may_be_head.set(HEADS.contains(&first.to_ascii_lowercase().as_str()));
+        is_head(first) && read(first).is_err()
+    };
+    let mut answers = text.one_a_line("answers", is_only_a_head, &read)?;
     // One too many: then a first line that may be both is a head.
-    if answers.len() == asked + 1 && begins_with_head(file)? {
+    if answers.len() == asked + 1 && may_be_head.get() {
         answers.remove(0);
     }
     if answers.len() != asked {
@@ -59,23 +62,9 @@ fn one_a_line<T>(
             "{} answers to {questions}: expected one a line, in their order (empty lines do not count: a miss is -1, or 0 hits)",
             answers.len()
         );
-        return Err(InputError::of(file, message).into());
+        return Err(InputError::of(name, message));
     }
     Ok(answers)
-}
-
-/// True if the first line of a file is a name of its column.
-fn begins_with_head(file: &str) -> Result<bool, Failure> {
-    if file == "-" {
-        return Ok(false);
-    }
-    let mut lines = TextLines::new(BufReader::new(open(file)?), file, LONGEST_LINE);
-    let Some(line) = lines.next() else {
-        return Ok(false);
-    };
-    let (_, text) = line?;
-    let head = without_mark(&text).to_ascii_lowercase();
-    Ok(HEADS.contains(&head.as_str()))
 }
 
 /// A face's number as a program wrote it. One more than there are is what a program says that counts from 1.
@@ -183,19 +172,15 @@ fn one_word(line: &str, field: &str) -> Result<String, String> {
 }
 
 /// All hits: a line each, with the ray's number from 0, the face and its t if there is one; those of a ray in the program's order.
-fn all(file: &str, asked: usize, faces: usize) -> Result<Vec<Vec<NamedHit>>, Failure> {
+fn all(text: Text, asked: usize, faces: usize) -> Result<Vec<Vec<NamedHit>>, InputError> {
     let mut answers = vec![Vec::new(); asked];
-    let reader = BufReader::new(open(file)?);
-    for line in TextLines::new(reader, file, LONGEST_LINE) {
-        let (number, text) = line?;
-        let text = without_mark(&text);
-        if text.starts_with('#') || number == 1 && is_head(text) {
-            continue;
+    text.for_each_line(|number, line| {
+        if number != 1 || !is_head(line) {
+            let hit = hit(line, asked, faces)?;
+            answers[hit.ray].push(hit.named);
         }
-        let hit =
-            hit(text, asked, faces).map_err(|message| InputError::at(file, number, message))?;
-        answers[hit.ray].push(hit.named);
-    }
+        Ok(())
+    })?;
     Ok(answers)
 }
 
