@@ -40,6 +40,37 @@ impl Aabb {
     }
 }
 
+/// So many boxes are tested at a time.
+pub const LANES: usize = 4;
+
+/// Boxes side by side: each number of all of them together, as vectors of a processor hold them.
+#[derive(Clone, Copy, Debug)]
+pub struct Boxes {
+    /// The least and the greatest corners, by axis and then by box.
+    pub planes: [[[f32; LANES]; 3]; 2],
+}
+
+impl Boxes {
+    /// No points in any.
+    pub const EMPTY: Boxes = Boxes {
+        planes: [[[f32::INFINITY; LANES]; 3], [[f32::NEG_INFINITY; LANES]; 3]],
+    };
+
+    /// Puts a box in place of one.
+    pub fn set(&mut self, k: usize, bounds: &Aabb) {
+        for axis in 0..3 {
+            self.planes[0][axis][k] = bounds.min[axis];
+            self.planes[1][axis][k] = bounds.max[axis];
+        }
+    }
+
+    /// One of them.
+    pub fn get(&self, k: usize) -> Aabb {
+        let [min, max] = self.planes.map(|planes| planes.map(|lanes| lanes[k]));
+        Aabb { min, max }
+    }
+}
+
 /// The largest `f32` that is at most x in its scale. `scaled` is x there, rounded only where it is below 2^-1022, and then
 /// the nearest `f32` is 0: so a negative x needs the next one, whatever `scaled` says.
 fn below(x: f64, scaled: f64) -> f32 {

@@ -1,14 +1,15 @@
 //! Builds the tree: the surface area heuristic with bins (Wald 2007, "On fast construction of SAH-based bounding volume
 //! hierarchies").
 
-use crate::aabb::Aabb;
+use crate::aabb::{Aabb, Boxes, LANES};
 use crate::tree::{Child, DEEPEST, Node};
+use std::ops::Range;
 
 const BINS: usize = 16;
 /// A leaf has at most this many faces.
 const MOST_IN_LEAF: usize = 8;
 /// More than this many are always cut, if a cut helps at all.
-const MOST_UNCUT: usize = 4;
+const MOST_UNCUT: usize = 2;
 /// Below this depth faces are halved, whatever it costs, so that no tree is deeper than [`DEEPEST`].
 const DEEPEST_CUT: usize = DEEPEST - 34;
 
@@ -20,10 +21,19 @@ pub fn build(boxes: &[Aabb]) -> (Vec<Node>, Vec<u32>) {
         nodes: Vec::new(),
     };
     if !boxes.is_empty() {
-        let half = builder.cut(0, boxes.len(), 0).unwrap_or(boxes.len());
-        builder.add_node(0, half, boxes.len(), 0);
+        let all = builder.part(0..boxes.len(), 0);
+        builder.add_node(&all, 0);
     }
     (builder.nodes, builder.order)
+}
+
+/// Faces that belong together.
+#[derive(Clone)]
+struct Part {
+    faces: Range<usize>,
+    bounds: Aabb,
+    /// The place at which they are cut; none if they are a leaf.
+    middle: Option<usize>,
 }
 
 struct Builder<'a> {
@@ -95,19 +105,49 @@ fn centre(bounds: &Aabb) -> [f32; 3] {
     [0, 1, 2].map(|axis| bounds.min[axis] + bounds.max[axis])
 }
 
+/// The part with the largest box of those that are cut, and the place of the cut.
+fn largest_cut(parts: &[Part]) -> Option<(usize, usize)> {
+    let cuts = parts.iter().enumerate().filter_map(|(k, part)| {
+        let area = half_area(&part.bounds);
+        part.middle.map(|middle| (area, k, middle))
+    });
+    let largest = cuts.max_by(|a, b| a.0.total_cmp(&b.0));
+    largest.map(|(_, k, middle)| (k, middle))
+}
+
 impl Builder<'_> {
-    /// Adds the node over the faces from `start` to `end`, whose children are cut at `half`, and all below it.
-    fn add_node(&mut self, start: usize, half: usize, end: usize, depth: usize) -> u32 {
+    /// Some faces, ordered for the cut through them.
+    fn part(&mut self, faces: Range<usize>, depth: usize) -> Part {
+        Part {
+            bounds: self.around(faces.start, faces.end),
+            middle: self.cut(faces.start, faces.end, depth),
+            faces,
+        }
+    }
+
+    /// Adds the node over a part, and all below it. Its children are what cuts of the largest ones leave.
+    fn add_node(&mut self, part: &Part, depth: usize) -> u32 {
         let place = self.nodes.len();
         self.nodes.push(Node {
-            bounds: [Aabb::EMPTY; 2],
-            children: [Child::leaf(0, 0); 2],
+            bounds: Boxes::EMPTY,
+            children: [Child::leaf(0, 0); LANES],
         });
-        for (k, [from, to]) in [[start, half], [half, end]].into_iter().enumerate() {
-            self.nodes[place].bounds[k] = self.around(from, to);
-            self.nodes[place].children[k] = match self.cut(from, to, depth + 1) {
-                Some(middle) => Child::node(self.add_node(from, middle, to, depth + 1)),
-                None => Child::leaf(from as u32, (to - from) as u32),
+        let mut parts = vec![part.clone()];
+        let mut depth = depth;
+        while parts.len() < LANES {
+            let Some((largest, middle)) = largest_cut(&parts) else {
+                break;
+            };
+            let faces = parts.swap_remove(largest).faces;
+            depth += 1;
+            parts.push(self.part(faces.start..middle, depth));
+            parts.push(self.part(middle..faces.end, depth));
+        }
+        for (k, part) in parts.iter().enumerate() {
+            self.nodes[place].bounds.set(k, &part.bounds);
+            self.nodes[place].children[k] = match part.middle {
+                Some(_) => Child::node(self.add_node(part, depth)),
+                None => Child::leaf(part.faces.start as u32, part.faces.len() as u32),
             };
         }
         place as u32
@@ -196,12 +236,8 @@ mod tests {
 
     fn depth(nodes: &[Node], place: usize) -> usize {
         let node = &nodes[place];
-        let below = |k: usize| {
-            node.children[k]
-                .place()
-                .map_or(0, |place| depth(nodes, place))
-        };
-        1 + below(0).max(below(1))
+        let places = node.children.iter().filter_map(|child| child.place().ok());
+        1 + places.map(|place| depth(nodes, place)).max().unwrap_or(0)
     }
 
     #[test]
@@ -237,14 +273,15 @@ mod tests {
             assert!(sorted.into_iter().eq(0..count as u32));
             let mut covered = vec![0; boxes.len()];
             for node in &nodes {
-                for k in 0..2 {
-                    let mut bounds = node.bounds[k];
+                for k in 0..LANES {
+                    let mut bounds = node.bounds.get(k);
                     let places = match node.children[k].place() {
                         Err(places) => places,
                         Ok(place) => {
-                            bounds.join(&nodes[place].bounds[0]);
-                            bounds.join(&nodes[place].bounds[1]);
-                            assert_eq!(bounds, node.bounds[k]);
+                            for below in 0..LANES {
+                                bounds.join(&nodes[place].bounds.get(below));
+                            }
+                            assert_eq!(bounds, node.bounds.get(k));
                             continue;
                         }
                     };
@@ -253,7 +290,7 @@ mod tests {
                         covered[place as usize] += 1;
                         bounds.join(&boxes[order[place as usize] as usize]);
                     }
-                    assert_eq!(bounds, node.bounds[k]);
+                    assert_eq!(bounds, node.bounds.get(k));
                 }
             }
             assert!(covered.iter().all(|times| *times == 1), "{count}");

@@ -1,6 +1,6 @@
 //! Faces near a ray that misses them, or near a point: by the tree, in floats. They name a judgement and decide no hit.
 
-use crate::aabb::Aabb;
+use crate::aabb::{Aabb, Boxes, LANES};
 use crate::distance::{distance_to, longest_edge};
 use crate::ray::Ray;
 use crate::scene::Scene;
@@ -42,11 +42,8 @@ impl<F: Float> Scene<F> {
                 }
                 Ok(place) => {
                     let node = self.node(place);
-                    for (bounds, child) in node.bounds.iter().zip(node.children) {
-                        if ray.enters(&grown(bounds, share)).is_some() {
-                            waiting.push(child);
-                        }
-                    }
+                    let entered = ray.enters(&grown(&node.bounds, share));
+                    waiting.extend(entered.map(|k| node.children[k]));
                 }
             }
         }
@@ -103,21 +100,27 @@ impl<F: Float> Scene<F> {
     }
 }
 
-/// The children of a node, the nearer one last.
-fn nearer_last(node: &Node, point: [f64; 3]) -> [Waiting; 2] {
-    let waiting = |k: usize| Waiting {
+/// The children of a node, the nearest one last.
+fn nearer_last(node: &Node, point: [f64; 3]) -> [Waiting; LANES] {
+    let mut all = std::array::from_fn(|k| Waiting {
         child: node.children[k],
-        distance: distance_to_box(&node.bounds[k], point),
-    };
-    let [first, second] = [waiting(0), waiting(1)];
-    match first.distance < second.distance {
-        true => [second, first],
-        false => [first, second],
+        distance: distance_to_box(&node.bounds.get(k), point),
+    });
+    all.sort_by(|a: &Waiting, b| b.distance.total_cmp(&a.distance));
+    all
+}
+
+/// Boxes, each grown.
+fn grown(boxes: &Boxes, share: f64) -> Boxes {
+    let mut all = Boxes::EMPTY;
+    for k in 0..LANES {
+        all.set(k, &grown_box(&boxes.get(k), share));
     }
+    all
 }
 
 /// A box grown on each side by a share of the sum of its sides, which is longer than any edge in it.
-fn grown(bounds: &Aabb, share: f64) -> Aabb {
+fn grown_box(bounds: &Aabb, share: f64) -> Aabb {
     let sides = [0, 1, 2].map(|axis| f64::from(bounds.max[axis]) - f64::from(bounds.min[axis]));
     let more = share * sides.iter().sum::<f64>();
     Aabb {

@@ -1,14 +1,16 @@
 //! The tree of boxes, and a ray's way through it.
 
-use crate::aabb::Aabb;
+use crate::aabb::{Boxes, LANES};
 use crate::slab::TreeRay;
+use arrayvec::ArrayVec;
 
-/// Two children with their boxes: one cache line.
+/// Children with their boxes: two cache lines.
 #[repr(align(64))]
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
-    pub bounds: [Aabb; 2],
-    pub children: [Child; 2],
+    pub bounds: Boxes,
+    /// Leaves without faces where there are fewer.
+    pub children: [Child; LANES],
 }
 
 /// Another node, or a leaf with some faces.
@@ -48,47 +50,68 @@ impl Child {
 /// The depth below which no tree goes: the builder's own limit, and halves of 2^32 faces.
 pub const DEEPEST: usize = 100;
 
+/// The most children that wait: on each level all but the one that is visited.
+const MOST_WAITING: usize = (LANES - 1) * DEEPEST;
+
+/// A child whose box the ray enters.
+#[derive(Clone, Copy)]
+struct Waiting {
+    child: Child,
+    /// A lower bound on where it does.
+    from: f32,
+}
+
 /// Calls `visit` for the place of each face whose box the ray meets, roughly from near to far. If `visit` gives a t, hits
 /// beyond that t no longer count.
 #[inline(always)]
 pub fn walk(nodes: &[Node], ray: &mut TreeRay, mut visit: impl FnMut(u32) -> Option<f64>) {
-    if nodes.is_empty() {
-        return;
-    }
-    let root = (Child::node(0), f64::NEG_INFINITY);
-    let mut waiting = [root; DEEPEST];
-    let mut count = 1;
-    while count != 0 {
-        count -= 1;
-        let (child, from) = waiting[count];
-        if ray.ends_before(from) {
-            continue;
-        }
-        let node = match child.place() {
-            Ok(place) => &nodes[place],
+    let mut waiting = ArrayVec::new();
+    let mut next = (!nodes.is_empty()).then_some(Child::node(0));
+    while let Some(child) = next {
+        let nearest = match child.place() {
+            Ok(place) => enter(&nodes[place], ray, &mut waiting),
             Err(faces) => {
                 for face in faces {
                     if let Some(t) = visit(face) {
                         ray.shorten(t);
                     }
                 }
-                continue;
+                None
             }
         };
-        let first = ray.enters(&node.bounds[0]);
-        let second = ray.enters(&node.bounds[1]);
-        // What is pushed last comes out first: the nearer child.
-        let second_is_nearer = match (first, second) {
-            (Some(first), Some(second)) => second < first,
-            _ => false,
-        };
-        let [far, near] = if second_is_nearer { [0, 1] } else { [1, 0] };
-        let entries = [first, second];
-        for k in [far, near] {
-            if let Some(from) = entries[k] {
-                waiting[count] = (node.children[k], from);
-                count += 1;
-            }
+        next = nearest.or_else(|| {
+            let mut waiting = std::iter::from_fn(|| waiting.pop());
+            let met = waiting.find(|it| !ray.ends_before(it.from));
+            met.map(|it| it.child)
+        });
+    }
+}
+
+/// Gives the nearest child of a node whose box the ray enters. The others wait, the nearest of them last.
+#[inline(always)]
+fn enter(
+    node: &Node,
+    ray: &TreeRay,
+    waiting: &mut ArrayVec<Waiting, MOST_WAITING>,
+) -> Option<Child> {
+    let entries = ray.enters(&node.bounds);
+    let from = entries.from;
+    let mut entered = entries.map(|k| Waiting {
+        child: node.children[k],
+        from: from[k],
+    });
+    let mut nearest = entered.next()?;
+    let first = waiting.len();
+    for mut other in entered {
+        if other.from < nearest.from {
+            std::mem::swap(&mut other, &mut nearest);
+        }
+        let mut place = waiting.len();
+        waiting.push(other);
+        while first < place && waiting[place - 1].from < other.from {
+            waiting.swap(place - 1, place);
+            place -= 1;
         }
     }
+    Some(nearest.child)
 }
