@@ -55,7 +55,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of judgements.
+    /// The counts of judgements.
     pub(crate) fn of(judged: &[Judged]) -> Tally {
         let count = |is_counted: fn(&Judged) -> bool| {
             let counted = judged.iter().filter(|it| is_counted(it));

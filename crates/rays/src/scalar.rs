@@ -53,7 +53,7 @@ pub trait RaysScalar: Scalar + Sized {
     /// Answers, judged.
     fn judged(run: JudgedRun<Self>) -> Result<Judgements<Self>, BadRay>;
 
-    /// What is told of judged answers.
+    /// The counts, and what is told of judged answers.
     fn summary(judgements: &Judgements<Self>) -> Result<RaysResult, BadRay>;
 }
 
