@@ -29,10 +29,11 @@ fn audited(arguments: &AuditArguments, outputs: &Outputs<'_>) -> Result<Status, 
     } else {
         MEASURED
     };
-    let plan = Plan {
+    let mut plan = Plan {
         measured,
         ..arguments.run.plan(arguments.attribute)?
     };
+    plan.rows.extend(arguments.run.kernels.exact_row()?);
     let record = arguments.run.execute(&plan, outputs.illustrate())?;
     self_check(&record)?;
     outputs.write(&record)?;

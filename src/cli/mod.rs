@@ -67,9 +67,11 @@ use crate::printable::is_obeyed;
 use clap::builder::Styles;
 use clap::{Arg, ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use hairline_boxes::Boxes;
+use hairline_core::exact;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Once;
 use std::time::Duration;
 
 /// Audits ray-triangle kernels and their epsilons against exact predicates.
@@ -248,6 +250,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         );
         return Status::SelfCheck as u8;
     }
+    static EXACT: Once = Once::new();
+    // Its name is free unless a program's own kernel has it.
+    EXACT.call_once(|| drop(kernel::register(exact::entry())));
     let parsed = command()
         .try_get_matches_from(&words)
         .and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?.command, matches)));

@@ -117,7 +117,7 @@ impl Outputs<'_> {
 #[derive(Args)]
 pub struct RunArguments {
     #[command(flatten)]
-    kernels: KernelArguments,
+    pub kernels: KernelArguments,
 
     #[command(flatten)]
     sources: SourceArguments,

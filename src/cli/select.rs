@@ -9,6 +9,7 @@ use crate::contract::Band;
 use crate::epsilon::LEAST_T;
 use crate::kernel::{self, Entry};
 use clap::Args;
+use hairline_core::exact;
 use serde::{Deserialize, Serialize};
 
 /// The flags that choose kernels, their epsilons and the contract.
@@ -100,6 +101,22 @@ impl KernelArguments {
             rows.iter_mut().for_each(|row| row.contract.band = band);
         }
         Ok(rows)
+    }
+
+    /// The test that is right for every ray, to stand beside the built-in kernels where no flag chooses among them.
+    pub fn exact_row(&self) -> Result<Option<Row>, Failure> {
+        let are_chosen =
+            self.names_kernels() || self.chooses_epsilons() || !self.arithmetic.is_empty();
+        let are_built_in = kernel::unnamed().iter().all(|entry| entry.is_built_in());
+        if are_chosen || !are_built_in {
+            return Ok(None);
+        }
+        let exact = find_kernel(exact::NAME)?;
+        let mut rows = self.choice()?.rows(&[exact], self.contract.as_deref())?;
+        for row in &mut rows {
+            row.contract.band = parsed("--band", self.band.as_deref())?;
+        }
+        Ok(rows.pop())
     }
 
     /// The rows for a scene, where `--epsilon` also takes the least t that counts, as t_min=1e-3: its text, if

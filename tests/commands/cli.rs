@@ -75,8 +75,18 @@ fn the_audit_lists_every_kernel_scalar_and_family() {
     };
     assert_eq!(
         (distinct("kernel"), distinct("scalar"), distinct("family")),
-        (17, 2, 31)
+        (18, 2, 31)
     );
+    let exact: Vec<_> = results
+        .iter()
+        .filter(|r| r["kernel"] == "hairline-exact")
+        .collect();
+    assert_eq!(exact.len(), 2 * 31);
+    for result in exact {
+        for kind in ["false_misses", "false_hits", "bad_values"] {
+            assert_eq!(result["total"][kind]["count"], 0, "{kind}: {result}");
+        }
+    }
     for source in record["result"]["sources"].as_array().unwrap() {
         assert_eq!(source["promise_broken"], 0, "{source}");
     }

@@ -143,7 +143,7 @@ fn the_default_plan_fits_on_a_screen_and_its_numbers_are_those_of_the_record() {
         "{screen}"
     );
     let rows = record["result"]["plan"]["rows"].as_array().unwrap();
-    assert_eq!(rows.len(), 21);
+    assert_eq!(rows.len(), 22);
     let (mut shown, mut order) = (0, Vec::new());
     for row in rows {
         let label = short_label(row);

@@ -34,11 +34,15 @@ mod prepared;
 
 mod asked;
 
+mod row;
+
 #[cfg(test)]
 mod tests;
 
 pub use asked::{Edges, Hit};
 pub use prepared::{Answer, PreparedRay, PreparedTriangle, Values};
+#[doc(hidden)]
+pub use row::{NAME, entry};
 
 /// Three `f32` points, tested with numbers in `f64`.
 pub type Triangle = PreparedTriangle<f32, f64>;

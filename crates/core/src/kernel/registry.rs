@@ -309,10 +309,12 @@ pub fn all() -> Vec<&'static Entry> {
     TRIANGLES.all()
 }
 
-/// The kernels of a run that names none: those of the program's author, if it has some, or else all.
+/// The kernels of a run that names none: those of the program's author, if it has some, or else the built-in ones.
 pub fn unnamed() -> Vec<&'static Entry> {
+    // Those with a flag of their own are there by that flag alone.
     let mut all = all();
-    let is_own = |entry: &&Entry| entry.flag.is_none() && !entry.is_built_in();
+    all.retain(|entry| entry.flag.is_none());
+    let is_own = |entry: &&Entry| !entry.is_built_in();
     if all.iter().any(is_own) {
         all.retain(is_own);
     }
