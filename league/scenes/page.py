@@ -2,8 +2,8 @@
 
 from questions import KINDS
 
-WRONG = ["lost", "farther face", "ghost", "wrong t"]
-FINE = ["right", "right, a tie", "neighbour"]
+WRONG = ["lost", "farther face", "ghost", "self-hit", "wrong t"]
+FINE = ["right", "tie", "neighbour"]
 # In which kinds a triangle is met plainly, so that any program should get them right.
 PLAIN = ["random", "vertex", "edge", "axis"]
 
@@ -34,7 +34,7 @@ READ = """
 - Rays *in the plane of a face* meet the edges of its neighbours too. Many libraries leave faces out that are seen edge-on; whether that is
   an error is for them to say. A wrong t there is what a renderer calls a spark.
 - Rays *from face to face* begin on a face as nearly as floats can say it: on it, a hair in front of it, or a hair behind it. A program that
-  answers with the face it starts from, though that lies behind the start, is counted as a ghost.
+  answers with the face it starts from, though that lies behind the start, is wrong: a self-hit.
 - The rates are of these rays. They compare libraries, and say nothing about how often your scene has such a ray.
 - Faces with no area are in none of the meshes.
 

@@ -44,6 +44,8 @@ pub struct KnownSubject {
     pub about: &'static str,
     /// The things that a count in it may be of and a run has not.
     pub parts: &'static str,
+    /// True of a name that some run may have a count of.
+    pub is_name: fn(&str) -> bool,
     /// The flags that choose the cases.
     pub choice: &'static str,
 }
@@ -77,7 +79,7 @@ impl<'a> KnownCounts<'a> {
         let is_new = blessing.bless && !Path::new(path).exists();
         let file = match is_new {
             true => None,
-            false => Some(KnownFile::open(path, subject.schema)?),
+            false => Some(KnownFile::open(path, subject)?),
         };
         if blessing.bless {
             check_place(path)?;
@@ -153,7 +155,7 @@ impl<'a> KnownCounts<'a> {
 }
 
 impl KnownFile {
-    fn open(file: &str, schema: &str) -> Result<KnownFile, Failure> {
+    fn open(file: &str, subject: &KnownSubject) -> Result<KnownFile, Failure> {
         let text = match read_text(file, SizeLimit::EXPECTATIONS) {
             Err(Failure::Message(status, message)) if !Path::new(file).exists() => {
                 let message = format!("{message}; with --bless this command writes it");
@@ -166,8 +168,12 @@ impl KnownFile {
             let line = text[..start].matches('\n').count() + 1;
             InputError::at(file, line, error.message().replace('\n', "; "))
         })?;
-        if known.schema != schema {
-            let message = format!("schema '{}', expected '{schema}'", known.schema);
+        if known.schema != subject.schema {
+            let message = format!("schema '{}', expected '{}'", known.schema, subject.schema);
+            return Err(InputError::of(file, message).into());
+        }
+        if let Some(name) = known.known.keys().find(|name| !(subject.is_name)(name)) {
+            let message = format!("a count of '{name}': there are no such {}", subject.parts);
             return Err(InputError::of(file, message).into());
         }
         Ok(known)

@@ -17,8 +17,8 @@ use crate::report::{Format, write_junit};
 pub use arguments::RaysArguments;
 use arguments::{AnswerArguments, kinds};
 use hairline_rays::{
-    Answers, Asked, BadRay, FoundHits, JudgedRun, Judgements, LocatedPoints, MadeRays,
-    PlainProgram, RaysResult, RaysScalar, Text, answers, ray_of_words,
+    AllHits, AnswerKind, Answers, Asked, BadRay, FoundHits, JudgedRun, Judgements, LocatedPoints,
+    MadeRays, PlainProgram, RaysResult, RaysScalar, Text, answers, ray_of_words,
 };
 use hairline_scene::{Judgement, NoTargets, Ray, Scene};
 use std::time::Instant;
@@ -44,6 +44,7 @@ const SUBJECT: KnownSubject = KnownSubject {
     schema: "hairline-rays/1",
     about: "Known wrong answers about rays at a mesh: `hairline rays --known` fails if there are more. --bless writes them.",
     parts: "judgements",
+    is_name: |name| Judgement::named(name).is_some_and(Judgement::is_wrong),
     choice: "the mesh, the file of rays (or --make and --seed), and --scalar say which",
 };
 
@@ -104,6 +105,11 @@ impl RaysRun<'_> {
             return Ok(Status::Success);
         }
         match self.asked::<F>()? {
+            Asked::Rays(rays) if self.arguments.kind()? == AnswerKind::All => {
+                let outputs = output.pairs(AllHits::FORMATS)?;
+                let found = F::found_all(&scene, &rays).map_err(|bad| self.bad(bad))?;
+                output.write(outputs, &found)?;
+            }
             Asked::Rays(rays) => {
                 let outputs = output.pairs(FoundHits::FORMATS)?;
                 let found = F::found(&scene, &rays).map_err(|bad| self.bad(bad))?;

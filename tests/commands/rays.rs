@@ -136,8 +136,9 @@ fn what_is_read_is_not_overwritten_and_flags_are_not_ignored() {
     );
     refused(
         &["r.csv", "--answered", "any"],
-        "required arguments were not provided",
+        "--answered any: whose answers?",
     );
+    refused(&["--make", "0"], "--make 0: at least 1");
     refused(&["r.csv", "--seed", "2"], "give --make N too");
     refused(
         &["r.csv", "--answers", "a.csv", "--epsilon", "parallel=1"],
@@ -193,7 +194,7 @@ fn bad_input_is_named_by_file_and_line() {
         (
             &["nan.csv"],
             65,
-            "nan.csv: ray 0, counted from 0: the ray has a coordinate that is not finite",
+            "nan.csv:1: the ray has a coordinate that is not finite",
         ),
         (
             &["short.csv"],
@@ -201,11 +202,7 @@ fn bad_input_is_named_by_file_and_line() {
             "short.csv:2: expected origin and direction as six numbers",
         ),
         (&["word.csv"], 65, "word.csv:1: 'one' is not a number"),
-        (
-            &["zero.csv"],
-            65,
-            "zero.csv: ray 0, counted from 0: the ray's direction is zero",
-        ),
+        (&["zero.csv"], 65, "zero.csv:1: the ray's direction is zero"),
         (&["empty.csv"], 65, "empty.csv: there are no rays in it"),
         (&["field.csv"], 65, "field.csv:1: missing field 'direction'"),
         (&["none.csv"], 74, "none.csv: No such file"),

@@ -46,7 +46,7 @@ fn answers_are_judged_by_kind() {
     }
     assert!(
         wrong.contains(
-            "ray 0: farther face: the nearest is face 3 at t = 4.25; answered face 0 at t = 5.0, 0.530 longest edges behind it"
+            "ray 0: farther face: the nearest is face 3 at t = 4.25; answered face 0 at t = 5.0, which it meets 0.530 longest edges behind"
         ),
         "{wrong}"
     );
@@ -297,7 +297,7 @@ fn records_of_answers_are_compared_and_are_tests_for_a_build() {
         fs::read_to_string(folder.join(file)).unwrap()
     };
     let junit = judged("0\n1\n-1\n", "wrong.xml", 1);
-    assert!(junit.contains("tests=\"9\" failures=\"1\""), "{junit}");
+    assert!(junit.contains("tests=\"10\" failures=\"1\""), "{junit}");
     assert!(
         junit.contains("message=\"farther face: 1 of 3\""),
         "{junit}"
@@ -351,7 +351,7 @@ fn every_answer_is_told_as_csv() {
     let lines: Vec<&str> = all.lines().collect();
     assert_eq!(
         lines[0],
-        "number,judgement,exact_faces,exact_t,answered,answered_t,off_in_edges"
+        "number,judgement,exact,exact_t,answered,answered_t,off_in_edges"
     );
     assert!(
         lines[1].starts_with("0,farther face,3,4.25,0,5.0,0.53"),
@@ -363,4 +363,215 @@ fn every_answer_is_told_as_csv() {
     let (_, error) = ends(&folder, &[&words[..], &["all.sarif"]].concat(), 2);
     assert!(error.contains("'all.sarif' is named as sarif"), "{error}");
     assert!(!folder.join("all.sarif").exists());
+}
+
+/// A square of two faces, and another behind it.
+const TWO_WALLS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 -1\nv 1 0 -1\nv 1 1 -1\nv 0 1 -1\nf 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n";
+
+#[test]
+fn points_that_are_nearer_than_anybody_sees_have_no_order() {
+    let folder = folder("rays-order");
+    // Another face a hair behind the first wall.
+    let near = "v 0 0 -1e-9\nv 1 0 -1e-9\nv 1 1 -1e-9\nf 9 10 11\n";
+    fs::write(folder.join("t.obj"), [TWO_WALLS, near].concat()).unwrap();
+    fs::write(folder.join("r.csv"), "0.75,0.25,1,0,0,-1\n").unwrap();
+    let judged = |answers: &str, code: i32| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+        let words = [&words[..], &["--answered", "all"]].concat();
+        flat(&ends(&folder, &words, code).0)
+    };
+    assert!(judged("0,0\n0,4\n0,2\n", 0).contains(" right 1 "));
+    assert!(judged("0,4\n0,0\n0,2\n", 0).contains(" neighbour 1 "));
+    assert!(judged("0,2\n0,0\n0,4\n", 1).contains(" wrong order 1 "));
+}
+
+#[test]
+fn the_face_that_a_ray_starts_at_is_a_self_hit_where_it_is_missed() {
+    let folder = folder("rays-self-hit");
+    fs::write(folder.join("t.obj"), TWO_WALLS).unwrap();
+    // From a hair behind the first wall to the second one.
+    fs::write(folder.join("r.csv"), "0.75,0.25,-1e-9,0,0,-1\n").unwrap();
+    let judged = |answers: &str, more: &[&str], code: i32| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+        flat(&ends(&folder, &[&words[..], more].concat(), code).0)
+    };
+    judged("2,0.999999999\n", &[], 0);
+    for answer in ["0,1e-12\n", "0\n"] {
+        let wrong = judged(answer, &[], 1);
+        assert!(wrong.contains(" self-hit 1 "), "{wrong}");
+    }
+    let all = judged("0,0,1e-12\n0,2,1\n", &["--answered", "all"], 1);
+    assert!(all.contains(" self-hit 1 "), "{all}");
+    // Where nothing else is, too; and from a hair in front of it the wall is right.
+    fs::write(folder.join("r.csv"), "0.75,0.25,1e-9,0,0,1\n").unwrap();
+    assert!(judged("0,1e-12\n", &[], 1).contains(" self-hit 1 "));
+    fs::write(folder.join("r.csv"), "0.75,0.25,1e-9,0,0,-1\n").unwrap();
+    judged("0,1e-9\n", &[], 0);
+}
+
+#[test]
+fn a_face_that_is_missed_by_a_hair_is_a_neighbour_with_and_without_t() {
+    let folder = folder("rays-hair");
+    fs::write(folder.join("t.obj"), TWO_WALLS).unwrap();
+    // Along the first wall, a hair above it and a hair below its slope: the plane is met far beyond its rim.
+    fs::write(folder.join("r.csv"), "-1,0.25,1e-7,1,0,-1e-9\n").unwrap();
+    for answer in ["0,1.5\n", "0\n"] {
+        fs::write(folder.join("a.csv"), answer).unwrap();
+        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+        let said = flat(&ends(&folder, &words, 0).0);
+        assert!(said.contains(" neighbour 1 "), "{answer}: {said}");
+    }
+}
+
+#[test]
+fn it_is_said_where_wrong_answers_lie() {
+    let folder = folder("rays-where");
+    fs::write(folder.join("t.obj"), TWO_WALLS).unwrap();
+    let judged = |rays: &str, answers: &str, more: &[&str]| {
+        fs::write(folder.join("r.csv"), rays).unwrap();
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+        flat(&ends(&folder, &[&words[..], more].concat(), 1).0)
+    };
+    let rays = "0.5,0.49999999,1,0,0,-1\n-1,0.25,1.35e-3,1,0,-9e-4\n0.75,0.25,1,0,0,-1\n";
+    let said = judged(rays, "-1\n-1\n-1\n", &[]);
+    assert!(
+        said.contains(
+            "Rays of the wrong answers: 1 meet a face within a millionth of it from an edge, 1 graze a face, at a slope below 1/1000, 1 meet the inside of a face."
+        ),
+        "{said}"
+    );
+    let beyond = judged("0.75,0.25,1,0,0,-1,0,0.5\n", "0,1\n", &[]);
+    assert!(
+        beyond.contains("1 wrong answer has a t before its ray's t_min or behind t_max"),
+        "{beyond}"
+    );
+    let any = judged("0.75,0.25,1,0,0,-1\n", "0\n", &["--answered", "any"]);
+    assert!(
+        any.contains("1 of the answers say that nothing is hit, where something is."),
+        "{any}"
+    );
+    let all = judged("0.75,0.25,1,0,0,-1\n", "0,0\n", &["--answered", "all"]);
+    assert!(all.contains("1 of the answers leave a hit out."), "{all}");
+}
+
+#[test]
+fn the_way_in_which_a_program_takes_points_for_inside_is_found_out() {
+    let folder = folder("rays-parity");
+    // A cube in a cube, wound alike: twice around the middle.
+    let cube = |size: f64| -> String {
+        let corner = |i: usize| {
+            let [x, y, z] = [i & 1, i >> 1 & 1, i >> 2].map(|bit| size * (2.0 * bit as f64 - 1.0));
+            format!("v {x} {y} {z}\n")
+        };
+        (0..8).map(corner).collect()
+    };
+    let faces = |first: usize| -> String {
+        let quads = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let line = |quad: [usize; 4]| {
+            let [a, b, c, d] = quad.map(|corner| corner + first);
+            format!("f {a} {b} {c} {d}\n")
+        };
+        quads.into_iter().map(line).collect()
+    };
+    let mesh = [cube(1.0), cube(2.0), faces(1), faces(9)].concat();
+    fs::write(folder.join("t.obj"), mesh).unwrap();
+    fs::write(folder.join("p.csv"), "0,0,0\n0.1,0.2,0.3\n1.5,0,0\n3,0,0\n").unwrap();
+    let judged = |answers: &str| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = [
+            "rays",
+            "t.obj",
+            "--points",
+            "p.csv",
+            "-q",
+            "--answers",
+            "a.csv",
+        ];
+        flat(&ends(&folder, &words, 1).0)
+    };
+    let by_parity = judged("0\n0\n1\n0\n");
+    assert!(
+        by_parity.contains("does your program count crossings, and take odd numbers for inside?"),
+        "{by_parity}"
+    );
+    let exchanged = judged("0\n0\n0\n1\n");
+    assert!(
+        exchanged.contains("inside and outside seem to be exchanged"),
+        "{exchanged}"
+    );
+}
+
+#[test]
+fn all_exact_hits_are_written_as_answers_that_are_right() {
+    let folder = folder("rays-all");
+    fs::write(folder.join("t.obj"), TWO_WALLS).unwrap();
+    fs::write(
+        folder.join("r.csv"),
+        "0.75,0.25,1,0,0,-1\n0.5,0.5,1,0,0,-2\n5,5,5,1,0,0\n",
+    )
+    .unwrap();
+    let words = [
+        "rays",
+        "t.obj",
+        "r.csv",
+        "-q",
+        "--answered",
+        "all",
+        "-o",
+        "all.csv",
+    ];
+    ends(&folder, &words, 0);
+    let all = fs::read_to_string(folder.join("all.csv")).unwrap();
+    assert_eq!(
+        all,
+        "ray,face,t\n0,0,1.0\n0,2,2.0\n1,0,0.5\n1,1,0.5\n1,2,1.0\n1,3,1.0\n"
+    );
+    let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "all.csv"];
+    let said = ends(&folder, &[&words[..], &["--answered", "all"]].concat(), 0).0;
+    assert!(flat(&said).contains(" right 3 "), "{said}");
+    let screen = ends(
+        &folder,
+        &["rays", "t.obj", "r.csv", "-q", "--answered", "all"],
+        0,
+    )
+    .0;
+    assert!(
+        screen.starts_with("6 hits of 3 rays with faces\n"),
+        "{screen}"
+    );
+}
+
+#[test]
+fn a_count_of_what_no_run_has_is_refused() {
+    let folder = folder("rays-known-names");
+    fs::write(folder.join("a.csv"), "0,5\n1\n-1\n").unwrap();
+    let words = [
+        "rays",
+        "t.obj",
+        "r.csv",
+        "-q",
+        "--answers",
+        "a.csv",
+        "--known",
+        "k.toml",
+    ];
+    ends(&folder, &[&words[..], &["--bless"]].concat(), 0);
+    ends(&folder, &words, 0);
+    let known = fs::read_to_string(folder.join("k.toml")).unwrap();
+    fs::write(folder.join("k.toml"), format!("{known}gost = 102\n")).unwrap();
+    let (_, error) = ends(&folder, &words, 65);
+    assert!(
+        error.contains("k.toml: a count of 'gost': there are no such judgements"),
+        "{error}"
+    );
 }

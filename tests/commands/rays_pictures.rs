@@ -108,7 +108,7 @@ fn the_exact_and_the_answered_hit_are_marked_where_they_lie() {
     let farther = &figures[0];
     assert!(
         farther.contains(
-            "<figcaption>Ray 0: farther face: the nearest is face 3 at t = 4.25; answered face 0 at t = 5.0, 0.530 longest edges behind it. "
+            "<figcaption>Ray 0: farther face: the nearest is face 3 at t = 4.25; answered face 0 at t = 5.0, which it meets 0.530 longest edges behind. "
         ),
         "{farther}"
     );

@@ -5,7 +5,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 /// The names of judgements, in the order of their codes. New ones go to the end: programs may have stored codes.
-const JUDGEMENTS: [(Judgement, &str); 13] = [
+const JUDGEMENTS: [(Judgement, &str); 14] = [
     (Judgement::Right, "right"),
     (Judgement::Tie, "tie"),
     (Judgement::Neighbour, "neighbour"),
@@ -19,6 +19,7 @@ const JUDGEMENTS: [(Judgement, &str); 13] = [
     (Judgement::WrongOrder, "wrong_order"),
     (Judgement::WrongSide, "wrong_side"),
     (Judgement::NotDefined, "not_defined"),
+    (Judgement::SelfHit, "self_hit"),
 ];
 
 /// Codes of places.

@@ -34,6 +34,7 @@ mod blame;
 mod told;
 
 mod found;
+mod found_all;
 mod judged;
 mod one;
 mod page;
@@ -44,6 +45,7 @@ mod scalar;
 
 pub use asked::{AnswerKind, Answers, Asked, BadRay};
 pub use found::FoundHits;
+pub use found_all::AllHits;
 pub use made::MadeRays;
 pub use one::RayTold;
 pub use plain::PlainProgram;

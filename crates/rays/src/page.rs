@@ -24,6 +24,7 @@ impl Paged for RaysResult {
         let wrong = self.wrong_count();
         let mut blocks: Vec<Block> = self.blame().map(Block::text).into_iter().collect();
         blocks.extend(self.wrong_rays.sentence().map(Block::text));
+        blocks.extend(self.ends().map(Block::text));
         blocks.extend(self.reading().map(Block::text));
         blocks.push(Block::Table(self.table()));
         let shown = self.counts.iter().filter(|it| 0 < it.count);
@@ -39,7 +40,7 @@ impl Paged for RaysResult {
         blocks.extend(Block::items(title_of_worst, SHOWN, items.collect()));
         if (self.worst.len() as u64) < wrong {
             blocks.push(Block::text(
-                "--format csv has every answer, with its judgement and the exact faces.",
+                "--format csv has every answer, with its judgement and the exact one.",
             ));
         }
         let pictures = self.worst.iter().filter_map(|it| it.picture.clone());
@@ -84,6 +85,13 @@ impl RaysResult {
             AnswerKind::Inside if 0 < self.count(Judgement::NotDefined) => {
                 Some("The surface is open, so only points on it can be judged: close it, or ask about hits.".to_owned())
             }
+            AnswerKind::Inside if has_wrong && self.wound_evenly == self.wrong_count() => {
+                Some("All wrong ones are taken to be outside where the surface winds around them twice, or another even number of times: does your \
+                     program count crossings, and take odd numbers for inside?".to_owned())
+            }
+            AnswerKind::Inside if BLAMED * self.asked as f64 <= self.wrong_count() as f64 => {
+                Some("Nine in ten are on the other side: inside and outside seem to be exchanged.".to_owned())
+            }
             AnswerKind::Inside if has_wrong => {
                 Some("\"Off\" is the distance from the surface: small ones are points that were taken to be on its other side; where they are \
                      large, hits are lost or counted twice on the way.".to_owned())
@@ -97,13 +105,19 @@ impl RaysResult {
 
     fn lost_hits(&self) -> String {
         let LostHits { count, .. } = self.lost;
-        let start = match count {
-            0 => return "No hit is lost.".to_owned(),
-            1 => "1 answer misses the exact hit: it names nothing, or another face.".to_owned(),
-            count => format!(
-                "{} answers miss the exact hit: they name nothing, or another face.",
-                group_digits(count)
-            ),
+        let lost = group_digits(count);
+        let start = match (self.kind, count) {
+            (_, 0) => return "No hit is lost.".to_owned(),
+            (AnswerKind::Nearest, 1) => {
+                "1 answer misses the exact hit: it names nothing, or another face.".to_owned()
+            }
+            (AnswerKind::Nearest, _) => {
+                format!("{lost} answers miss the exact hit: they name nothing, or another face.")
+            }
+            (AnswerKind::Any, _) => {
+                format!("{lost} of the answers say that nothing is hit, where something is.")
+            }
+            _ => format!("{lost} of the answers leave a hit out."),
         };
         let reason = self.lost.reason(self.program.is_some());
         format!("{start} {}", reason.unwrap_or_else(|| self.no_reason()))
@@ -121,9 +135,24 @@ impl RaysResult {
                     hits, in both neighbours?"
                 .to_owned();
         }
-        "No built-in triangle test and no slab test misses most of these and finds the others. If yours are others, look at them; else at the \
-         tree, a transform, an end of the interval, or how faces are numbered."
-            .to_owned()
+        let nearest = self.lost.nearest_test().unwrap_or_default();
+        format!(
+            "No built-in triangle test and no slab test misses nine in ten of these and finds the others.{nearest} If yours are others, look at \
+             them; else at the tree, a transform, an end of the interval, or how faces are numbered."
+        )
+    }
+
+    /// Answers outside of the rays' intervals.
+    fn ends(&self) -> Option<String> {
+        let (is_one, answers) = match self.outside_interval {
+            0 => return None,
+            1 => (true, "1 wrong answer has".to_owned()),
+            count => (false, format!("{} wrong answers have", group_digits(count))),
+        };
+        let its = if is_one { "its ray's" } else { "their rays'" };
+        Some(format!(
+            "{answers} a t before {its} t_min or behind t_max: does your program know the ends?"
+        ))
     }
 
     /// How the numbers were read, if not as they are written.
@@ -180,7 +209,7 @@ impl WrongRays {
     /// True if nearly all meet an edge or a vertex, or run in a plane.
     fn are_at_edges(&self) -> bool {
         let there = self.in_plane + self.at_edge;
-        let all = there + self.inside + self.nothing;
+        let all = there + self.near_edge + self.grazing + self.inside + self.nothing;
         BLAMED * all as f64 <= there as f64
     }
 
@@ -189,6 +218,11 @@ impl WrongRays {
         let kinds = [
             (self.in_plane, "run in the plane of a face that they meet"),
             (self.at_edge, "meet an edge or a vertex exactly"),
+            (
+                self.near_edge,
+                "meet a face within a millionth of it from an edge",
+            ),
+            (self.grazing, "graze a face, at a slope below 1/1000"),
             (self.inside, "meet the inside of a face"),
             (self.nothing, "meet nothing"),
         ];
@@ -247,6 +281,26 @@ impl LostHits {
     }
 }
 
+impl LostHits {
+    /// The test that explains most of the lost hits, if it explains some.
+    fn nearest_test(&self) -> Option<String> {
+        let best = |all: &[MissCount]| all.first().map(|it| it.explained).unwrap_or(0);
+        let tests = [&self.missed_by_kernels, &self.missed_by_box_tests];
+        let nearest = tests.into_iter().max_by_key(|all| best(all))?;
+        (self.count <= 4 * best(nearest)).then(|| {
+            let test = &nearest[0];
+            let epsilon = test.epsilon.iter().map(|it| format!(" ({it})"));
+            format!(
+                " {}{} comes nearest, with {} of {}.",
+                test.name,
+                epsilon.collect::<String>(),
+                group_digits(test.explained),
+                group_digits(self.count)
+            )
+        })
+    }
+}
+
 impl WithoutBoxes {
     fn sentence(&self) -> String {
         let WithoutBoxes { tried, lost } = *self;
@@ -291,12 +345,17 @@ fn meaning(kind: AnswerKind, judgement: Judgement) -> String {
         (AnswerKind::All, Judgement::Lost) => {
             "a point at which the mesh is hit, and none of its faces is named"
         }
-        (AnswerKind::All, Judgement::Tie) => "every point, by some of the faces that are met there",
+        (AnswerKind::All, Judgement::Tie) => {
+            "right: every point, by some of the faces that are met there"
+        }
         (AnswerKind::All, Judgement::Right) => "every face that is met, in order",
+        (_, Judgement::SelfHit) => {
+            "the face that the ray starts at, and misses by a hair, in front of where it hits: start new rays off the surface"
+        }
         (AnswerKind::Any, Judgement::Ghost) => "a hit where nothing is",
         (AnswerKind::Any, Judgement::Right) => "a hit where one is, or none where none is",
         (AnswerKind::Count, Judgement::Tie) => {
-            "some points count once for each of their faces: two at an edge"
+            "right: some points count once for each of their faces, two at an edge"
         }
         (AnswerKind::Count, Judgement::Right) => {
             "every point at which the surface is met counts once"
@@ -304,10 +363,10 @@ fn meaning(kind: AnswerKind, judgement: Judgement) -> String {
         (AnswerKind::Count, Judgement::Neighbour) => {
             "a silhouette that the ray touches is not counted, or one that it misses by a hair is: nobody sees it"
         }
-        (AnswerKind::Inside, Judgement::Tie) => "on the surface, where every answer is right",
+        (AnswerKind::Inside, Judgement::Tie) => "right: on the surface every answer is",
         (AnswerKind::Inside, Judgement::Right) => "the exact side",
         (AnswerKind::Nearest, Judgement::Right) => "the nearest face, or no hit",
-        (AnswerKind::Nearest, Judgement::Tie) => "one of several nearest faces",
+        (AnswerKind::Nearest, Judgement::Tie) => "right: one of several nearest faces",
         (AnswerKind::Nearest, Judgement::Ghost) => "a face elsewhere, that the ray does not meet",
         (AnswerKind::Nearest | AnswerKind::All, Judgement::Neighbour) => {
             "a face that the ray misses by a hair, or a silhouette that the program left out: nobody sees it"

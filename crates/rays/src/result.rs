@@ -7,7 +7,6 @@ use crate::files::mesh::Mesh;
 use crate::record::{Comparable, NamedRate, NamedValue, Rate, Study, group_digits, number_of};
 use crate::report::JunitCase;
 use crate::report::page::Picture;
-use crate::single::joined;
 use hairline_core::printable::printable;
 use hairline_scene::Judgement;
 use std::collections::BTreeMap;
@@ -46,6 +45,12 @@ pub struct RaysResult {
     /// How the rays of wrong answers meet the mesh.
     #[serde(default)]
     pub wrong_rays: WrongRays,
+    /// The wrong answers with a t before the ray's start or beyond its end, by more than anybody overlooks.
+    #[serde(default)]
+    pub outside_interval: u64,
+    /// The points that are taken to be outside where the surface winds around them an even number of times.
+    #[serde(default)]
+    pub wound_evenly: u64,
     /// The worst answers.
     pub worst: Vec<WrongAnswer>,
     /// Every answer, if it was asked for. A record has the counts alone.
@@ -61,7 +66,13 @@ pub struct WrongRays {
     pub in_plane: u64,
     /// Those that meet an edge or a vertex exactly, and run in no plane.
     pub at_edge: u64,
-    /// Those that meet the inside of a face only.
+    /// Those that meet the inside of a face, within a millionth of it from an edge.
+    #[serde(default)]
+    pub near_edge: u64,
+    /// Those that meet the inside of a face, at a slope below 1/1000.
+    #[serde(default)]
+    pub grazing: u64,
+    /// Those that meet the inside of a face otherwise.
     pub inside: u64,
     /// Those that meet nothing.
     pub nothing: u64,
@@ -72,9 +83,9 @@ pub struct WrongRays {
 pub struct EachAnswer {
     /// The judgement.
     pub judgement: Judgement,
-    /// The exact nearest faces; of all hits those of the first that is lost.
-    pub faces: Vec<u32>,
-    /// Their t, as the nearest double.
+    /// The exact answer: the nearest faces, or all in order; or the place of a point.
+    pub exact: String,
+    /// The t of the first face, as the nearest double.
     pub t: Option<f64>,
     /// The answer: faces, a number or a word.
     pub answered: String,
@@ -191,16 +202,16 @@ impl RaysResult {
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(
             out,
-            "number,judgement,exact_faces,exact_t,answered,answered_t,off_in_edges"
+            "number,judgement,exact,exact_t,answered,answered_t,off_in_edges"
         )?;
         let number = |it: Option<f64>| it.map_or(String::new(), |it| format!("{it:?}"));
         for (index, it) in self.each.iter().enumerate() {
-            let judgement = it.judgement.name().replace(',', ":");
-            let (faces, answered) = (joined(&it.faces), &it.answered);
+            let (exact, answered) = (&it.exact, &it.answered);
             let [t, answered_t, off] = [it.t, it.answered_t, it.off].map(number);
             writeln!(
                 out,
-                "{index},{judgement},{faces},{t},{answered},{answered_t},{off}"
+                "{index},{},{exact},{t},{answered},{answered_t},{off}",
+                it.judgement
             )?;
         }
         Ok(())

@@ -6,6 +6,7 @@ use crate::corpus::lines::AnyCase;
 use crate::files::InputError;
 use crate::files::mesh::Mesh;
 use crate::found::{self, FoundHits};
+use crate::found_all::{self, AllHits};
 use crate::judged;
 use crate::kernel::Scalar;
 use crate::made;
@@ -42,6 +43,9 @@ pub trait RaysScalar: Scalar + Sized {
 
     /// The nearest hits of rays.
     fn found(scene: &Scene<Self>, rays: &[Ray<Self>]) -> Result<FoundHits, BadRay>;
+
+    /// All hits of rays.
+    fn found_all(scene: &Scene<Self>, rays: &[Ray<Self>]) -> Result<AllHits, BadRay>;
 
     /// The places of points.
     fn located(scene: &Scene<Self>, points: &[[Self; 3]]) -> Result<LocatedPoints, BadRay>;
@@ -91,6 +95,10 @@ macro_rules! implement {
 
             fn found(scene: &Scene<Self>, rays: &[Ray<Self>]) -> Result<FoundHits, BadRay> {
                 found::found(scene, rays)
+            }
+
+            fn found_all(scene: &Scene<Self>, rays: &[Ray<Self>]) -> Result<AllHits, BadRay> {
+                found_all::found_all(scene, rays)
             }
 
             fn located(scene: &Scene<Self>, points: &[[Self; 3]]) -> Result<LocatedPoints, BadRay> {

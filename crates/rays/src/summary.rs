@@ -9,7 +9,8 @@ use crate::plain::{self, PlainProgram};
 use crate::result::{JudgementCount, RaysResult, WithoutBoxes, WrongRays, mesh_label};
 use crate::run::{JudgedRun, Judgements};
 use crate::told::{each, worst};
-use hairline_scene::{Judged, Judgement, Ray};
+use glam::DVec3;
+use hairline_scene::{Answer, Judged, Judgement, Location, NamedPlace, Ray, Scene, Winding};
 
 /// The fewest faces by which a shift of their numbers is known.
 const FEWEST: usize = 5;
@@ -20,7 +21,7 @@ where
     Case<F>: Into<AnyCase>,
 {
     let Judgements { run, judged, .. } = judgements;
-    let lost = hits_of(run, judged, is_of_a_lost_hit);
+    let lost = hits_of(run, judged, |it| is_of_a_lost_hit(run, it));
     let found = hits_of(run, judged, Judgement::is_right);
     let mut lost = lost_hits(run.mesh, &run.scene, &lost, &found);
     lost.without_boxes = without_boxes(run, judged)?;
@@ -40,6 +41,8 @@ where
         shift: shift(&run.answers, judged),
         lost,
         wrong_rays: wrong_rays(run, judged)?,
+        outside_interval: outside_interval(run, judged),
+        wound_evenly: wound_evenly(run, judged)?,
         worst: worst(run, judged)?,
         each: match run.tells_each {
             true => each(run, judged)?,
@@ -59,31 +62,107 @@ fn rays_of<'a, F: Scalar>(
         .collect()
 }
 
-/// How the rays of wrong answers meet the mesh: of a nearest hit there, of others anywhere.
+/// A ray that meets a face nearer to an edge than this share of it meets it near the edge.
+const NEAR: f64 = 1e-6;
+
+/// A ray that meets a face at a lower slope grazes it.
+const SLOPE: f64 = 1e-3;
+
+/// How the rays of wrong answers meet the mesh: at the hit that is judged, or of counts anywhere.
 fn wrong_rays<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<WrongRays, BadRay> {
     let wrong = rays_of(run, judged, Judgement::is_wrong);
-    let mut counts = WrongRays::default();
-    let meets_first_alone = matches!(run.answers.kind(), AnswerKind::Nearest | AnswerKind::Any);
     let passages = of_all(wrong.len(), |i| run.scene.passages(wrong[i].1));
     let passages = passages.map_err(|bad| BadRay {
         index: wrong[bad.index].0,
         ..bad
     })?;
-    for mut passages in passages {
-        let is_in_plane = passages.iter().any(|it| it.is_segment);
-        if meets_first_alone {
-            passages.truncate(1);
-        }
-        let is_at_edge = passages.iter().any(|it| 1 < it.faces.len());
-        let count = match passages.is_empty() {
-            true => &mut counts.nothing,
-            false if is_in_plane => &mut counts.in_plane,
-            false if is_at_edge => &mut counts.at_edge,
-            false => &mut counts.inside,
+    let is_of_count = run.answers.kind() == AnswerKind::Count;
+    let mut counts = WrongRays::default();
+    for ((index, ray), passages) in wrong.into_iter().zip(passages) {
+        let hit = judged[index].hit.as_ref();
+        let is_at_edge = match is_of_count {
+            true => passages.iter().any(|it| 1 < it.faces.len()),
+            false => hit.is_some_and(|it| 1 < it.faces.len()),
+        };
+        let count = match hit {
+            None => &mut counts.nothing,
+            _ if passages.iter().any(|it| it.is_segment) => &mut counts.in_plane,
+            _ if is_at_edge => &mut counts.at_edge,
+            Some(hit) => match meeting(&run.scene, ray, hit.faces[0]) {
+                Meeting::NearEdge => &mut counts.near_edge,
+                Meeting::Grazing => &mut counts.grazing,
+                Meeting::Inside => &mut counts.inside,
+            },
         };
         *count += 1;
     }
     Ok(counts)
+}
+
+/// How a ray meets the inside of a face.
+enum Meeting {
+    NearEdge,
+    Grazing,
+    Inside,
+}
+
+/// How a ray meets the inside of a face, in floats: it decides no hit.
+fn meeting<F: Scalar>(scene: &Scene<F>, ray: &Ray<F>, face: u32) -> Meeting {
+    let Some(triangle) = scene.triangle(face) else {
+        return Meeting::Inside;
+    };
+    let [a, b, c] = triangle.map(DVec3::from);
+    let origin = DVec3::from(ray.origin.map(F::to_f64));
+    let direction = DVec3::from(ray.direction.map(F::to_f64)).normalize_or_zero();
+    let [e, f, s] = [b - a, c - a, origin - a];
+    let normal = e.cross(f);
+    let determinant = direction.dot(normal);
+    // Weights of b and c as Möller and Trumbore have them.
+    let v = s.cross(direction).dot(e) / determinant;
+    let u = direction.cross(s).dot(f) / determinant;
+    let least = u.min(v).min(1.0 - u - v).abs();
+    match (least <= NEAR, determinant.abs() < SLOPE * normal.length()) {
+        (true, _) => Meeting::NearEdge,
+        (false, true) => Meeting::Grazing,
+        (false, false) => Meeting::Inside,
+    }
+}
+
+/// How many wrong answers have a t outside of the ray's interval.
+fn outside_interval<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> u64 {
+    let is_outside = |ray: &Ray<F>, face: u32, t: f64| {
+        let hair = run.scene.hair(ray, face);
+        t < ray.t_min.to_f64() - hair || ray.t_max.to_f64() + hair < t
+    };
+    let wrong = rays_of(run, judged, Judgement::is_wrong);
+    let outside = wrong.into_iter().filter(|(index, ray)| match &run.answers {
+        Answers::Nearest(all) => {
+            let Answer { face, t } = all[*index];
+            face.zip(t)
+                .is_some_and(|(face, t)| is_outside(ray, face, t))
+        }
+        Answers::All(all) => all[*index]
+            .iter()
+            .any(|hit| hit.t.is_some_and(|t| is_outside(ray, hit.face, t))),
+        _ => false,
+    });
+    outside.count() as u64
+}
+
+/// How many points are taken to be outside where the surface winds around them twice, or another even number of times.
+fn wound_evenly<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<u64, BadRay> {
+    let (Asked::Points(points), Answers::Inside(named)) = (&run.asked, &run.answers) else {
+        return Ok(0);
+    };
+    let is_wound_evenly = |index: usize| {
+        if !judged[index].judgement.is_wrong() || named[index] != NamedPlace::Outside {
+            return Ok(false);
+        }
+        let location = run.scene.locate(points[index])?;
+        Ok(matches!(location, Location::Off(Winding::Number(n)) if n % 2 == 0))
+    };
+    let all = of_all(judged.len(), is_wound_evenly)?;
+    Ok(all.into_iter().filter(|is| *is).count() as u64)
 }
 
 /// The most faces that are asked about to see what a program loses without boxes, of all rays together.
@@ -104,7 +183,7 @@ where
     else {
         return Ok(None);
     };
-    let lost = rays_of(run, judged, is_of_a_lost_hit);
+    let lost = rays_of(run, judged, |it| is_of_a_lost_hit(run, it));
     let most = ASKED / run.mesh.triangles.len().max(1);
     let step = lost.len().div_ceil(most.max(1)).max(1);
     let rays: Vec<Ray<F>> = lost.iter().step_by(step).map(|(_, ray)| **ray).collect();
@@ -116,7 +195,9 @@ where
         return Ok(None);
     };
     let judged = Asked::Rays(rays).judged(&run.scene, &answers)?;
-    let lost = judged.iter().filter(|it| is_of_a_lost_hit(it.judgement));
+    let lost = judged
+        .iter()
+        .filter(|it| is_of_a_lost_hit(run, it.judgement));
     Ok(Some(WithoutBoxes {
         tried: judged.len() as u64,
         lost: lost.count() as u64,
@@ -139,11 +220,14 @@ fn hits_of<'a, F: Scalar>(
 }
 
 /// True if the exact hit is missed, or another face is named in its place. Which hits a count leaves out is not known.
-fn is_of_a_lost_hit(judgement: Judgement) -> bool {
-    matches!(
-        judgement,
-        Judgement::Lost | Judgement::Farther | Judgement::Ghost
-    )
+fn is_of_a_lost_hit<F: Scalar>(run: &JudgedRun<F>, judgement: Judgement) -> bool {
+    match run.answers.kind() {
+        AnswerKind::Nearest => matches!(
+            judgement,
+            Judgement::Lost | Judgement::Farther | Judgement::Ghost
+        ),
+        _ => judgement == Judgement::Lost,
+    }
 }
 
 fn counted_as(judgement: Judgement, judged: &[Judged]) -> JudgementCount {

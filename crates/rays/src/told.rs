@@ -10,7 +10,7 @@ use crate::record::{group_digits, number_of};
 use crate::report::page::Picture;
 use crate::result::{EachAnswer, WrongAnswer, short};
 use crate::run::JudgedRun;
-use crate::single::{explain_command, faces_in_words};
+use crate::single::{explain_command, faces_in_words, joined};
 use hairline_scene::{Answer, InvalidRay, Judged, Judgement, Location, Nearest, Ray, Scene};
 
 /// How many wrong answers are told with their commands.
@@ -84,6 +84,9 @@ fn beside(truth: &str, answers: &Answers, index: usize, judged: &Judged) -> Stri
     let off = match judged.off {
         Some(off) if answers.are_of_points() => {
             format!(", {} longest edges from the surface", short(off))
+        }
+        Some(off) if judged.judgement == Judgement::Farther => {
+            format!(", which it meets {} longest edges behind", short(off))
         }
         Some(off) if off < 0.0 => format!(", {} longest edges in front of it", short(-off)),
         Some(off) => format!(", {} longest edges behind it", short(off)),
@@ -205,23 +208,60 @@ fn truth_of_point<F: Float>(scene: &Scene<F>, point: [F; 3]) -> Result<&'static 
 /// Every answer beside the truth.
 pub fn each<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<Vec<EachAnswer>, BadRay> {
     of_all(judged.len(), |index| {
-        let Judged {
-            judgement,
-            hit,
-            off,
-        } = &judged[index];
-        let faces = hit.as_ref().map_or(Vec::new(), |hit| hit.faces.clone());
-        let t = match (run.asked.rays().get(index), faces.first()) {
-            (Some(ray), Some(face)) => run.scene.t(ray, *face)?,
-            _ => None,
-        };
+        let exact = exact_of(run, index, &judged[index])?;
         Ok(EachAnswer {
-            judgement: *judgement,
-            faces,
-            t: t.map(|[first, _]| first),
+            judgement: judged[index].judgement,
+            exact: exact.text,
+            t: exact.t,
             answered: run.answers.in_short(index),
             answered_t: run.answers.t(index),
-            off: *off,
+            off: judged[index].off,
         })
+    })
+}
+
+/// An exact answer as cells of a table.
+struct ExactCells {
+    text: String,
+    t: Option<f64>,
+}
+
+fn exact_of<F: Scalar>(
+    run: &JudgedRun<F>,
+    index: usize,
+    judged: &Judged,
+) -> Result<ExactCells, InvalidRay> {
+    let ray = match &run.asked {
+        Asked::Rays(rays) => &rays[index],
+        Asked::Points(points) => {
+            let place = match run.scene.locate(points[index])? {
+                Location::On(_) => "on",
+                Location::NotDefined(_) => "not defined",
+                Location::Off(winding) if winding.is_zero() => "outside",
+                Location::Off(_) => "inside",
+            };
+            return Ok(ExactCells {
+                text: place.to_owned(),
+                t: None,
+            });
+        }
+    };
+    let faces = match &run.answers {
+        Answers::All(_) => {
+            let hits = run.scene.hits(ray)?;
+            hits.into_iter().flat_map(|hit| hit.faces).collect()
+        }
+        _ => judged
+            .hit
+            .as_ref()
+            .map_or(Vec::new(), |it| it.faces.clone()),
+    };
+    let t = match faces.first() {
+        Some(face) => run.scene.t(ray, *face)?,
+        None => None,
+    };
+    Ok(ExactCells {
+        text: joined(&faces),
+        t: t.map(|[first, _]| first),
     })
 }

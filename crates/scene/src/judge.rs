@@ -34,6 +34,8 @@ named! {
         Farther = "farther face",
         /// A face elsewhere, that the ray does not meet, or a hit where nothing is.
         Ghost = "ghost",
+        /// The face that the ray starts at and misses by a hair, in front of where it hits: rounding took the start to its other side.
+        SelfHit = "self-hit",
         /// Fewer hits than there are.
         TooFew = "too few",
         /// More hits than there are.
@@ -51,7 +53,7 @@ named! {
         /// Not defined: the surface is open.
         NotDefined = "not defined",
         /// One of several right answers.
-        Tie = "right, a tie",
+        Tie = "tie" | "right, a tie",
         /// The exact answer.
         Right = "right",
     }
@@ -74,7 +76,7 @@ impl Judgement {
 pub struct Judged {
     /// The judgement.
     pub judgement: Judgement,
-    /// The exact hit that it is about: the nearest one; of all hits the first that is lost.
+    /// The exact hit that it is about: the nearest one; of all hits the first that is lost, if one is.
     pub hit: Option<Nearest>,
     /// How far the answered point lies behind the exact one, in longest edges of the nearest face: by its t, or of a farther
     /// face by that face's exact t. Of a point on the wrong side the distance from the surface, in longest edges of the face there.
@@ -112,10 +114,7 @@ impl<F: Float> Scene<F> {
         let Some(nearest) = self.nearest(ray)? else {
             let judgement = match answer.face {
                 None => Judgement::Right,
-                Some(face) if self.is_missed_by_a_hair(ray, face, answer.t, f64::INFINITY) => {
-                    Judgement::Neighbour
-                }
-                Some(_) => Judgement::Ghost,
+                Some(face) => self.of_face_nearby(ray, face, answer.t, f64::INFINITY, None),
             };
             return Ok(Judged::new(judgement, None, None));
         };
@@ -177,10 +176,28 @@ impl<F: Float> Scene<F> {
         let behind = t.map_or(Ok(None), |t| self.behind(ray, nearest, t))?;
         // Not farther behind the nearest face than anybody sees.
         let latest = nearest.t.upper + VISIBLE / self.edges_to_a_t(ray, nearest);
-        Ok(match self.is_missed_by_a_hair(ray, face, t, latest) {
-            true => (Judgement::Neighbour, behind),
-            false => (Judgement::Ghost, behind),
-        })
+        let judgement = self.of_face_nearby(ray, face, t, latest, Some(nearest));
+        Ok((judgement, behind))
+    }
+
+    /// Judges a face that the ray does not meet, and that it may pass by a hair at `latest`.
+    fn of_face_nearby(
+        &self,
+        ray: &Ray<F>,
+        face: u32,
+        t: Option<f64>,
+        latest: f64,
+        nearest: Option<&Nearest>,
+    ) -> Judgement {
+        let Some(t) = self.missed_by_a_hair(ray, face, t, latest) else {
+            return Judgement::Ghost;
+        };
+        let hair = self.hair(ray, face);
+        let is_before = nearest.is_none_or(|nearest| hair < nearest.t.lower - t);
+        match is_before && t - ray.t_min.to_f64() <= hair {
+            true => Judgement::SelfHit,
+            false => Judgement::Neighbour,
+        }
     }
 
     /// True if an answer is right for a ray that is moved aside by less than any number.

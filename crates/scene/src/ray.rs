@@ -36,6 +36,11 @@ impl<F: Float> Ray<F> {
         self
     }
 
+    /// An error if the ray means nothing.
+    pub fn check(&self) -> Result<(), InvalidRay> {
+        self.checked().map(drop)
+    }
+
     /// The same ray in `f64`, which holds every `f32` exactly; an error if the ray means nothing.
     pub(crate) fn checked(&self) -> Result<Ray<f64>, InvalidRay> {
         let wide = Ray {

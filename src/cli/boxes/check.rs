@@ -25,6 +25,7 @@ const SUBJECT: KnownSubject = KnownSubject {
     schema: "hairline-boxes/1",
     about: "Known wrong answers of slab tests: `hairline boxes check` fails if there are others. --bless writes them.",
     parts: "tests, families or scalars",
+    is_name: |_| true,
     choice: "-n and --seed say how many of which",
 };
 

@@ -76,8 +76,8 @@ pub struct AnswerArguments {
     pub(super) answers: Option<String>,
 
     /// Answers of another kind: any (1 for a hit, 0 for none), all (every hit a line: ray, face, t), count (of hits), or
-    /// inside (inside, outside or on; of --points) [default: nearest]
-    #[arg(long, value_name = "KIND", requires = "answers", help_heading = ANSWERS)]
+    /// inside (inside, outside or on; of --points); all without --answers writes every exact hit [default: nearest]
+    #[arg(long, value_name = "KIND", help_heading = ANSWERS)]
     pub(super) answered: Option<String>,
 
     /// Known wrong answers: fail only if there are more, and with 3 if there are fewer
@@ -106,6 +106,7 @@ impl RaysArguments {
             ));
         }
         match self.make {
+            Some(0) => Err(Failure::usage("--make 0: at least 1")),
             Some(count) if MOST < count => Err(Failure::usage(format!(
                 "--make {count}: at most {}, which fill memory; use several seeds",
                 group_digits(MOST)
@@ -120,10 +121,21 @@ impl RaysArguments {
         self.answered
             .blessing
             .needs(self.answered.known.as_deref())?;
-        if self.answered.answered.is_some() && self.answered.answers.is_none() {
-            return Err(Failure::usage(
-                "--answered: a plain program answers nearest hits",
-            ));
+        let asks_for_all = !self.program.is_given() && self.rays.is_some();
+        match &self.answered.answered {
+            Some(_) if self.answered.answers.is_some() => {}
+            Some(kind) if asks_for_all && ["nearest", "all"].contains(&kind.as_str()) => {}
+            Some(_) if self.program.is_given() => {
+                return Err(Failure::usage(
+                    "--answered: a plain program answers nearest hits",
+                ));
+            }
+            Some(kind) => {
+                return Err(Failure::usage(format!(
+                    "--answered {kind}: whose answers? Give them with --answers; without them a file of rays has the nearest hits, or all"
+                )));
+            }
+            None => {}
         }
         let is_about_made_rays = !self.kinds.is_empty() || self.seed.is_some();
         if is_about_made_rays && self.make.is_none() {

@@ -12,13 +12,19 @@ const RAY: &str = "origin and direction as six numbers, or eight with t_min and 
 
 /// The rays of a file. An error names the line and what is wrong in it.
 pub fn rays<F: Scalar>(text: Text) -> Result<Vec<Ray<F>>, InputError> {
-    text.one_a_line("rays", is_head, |line| match line.chars().next() {
-        Some('{') => ray_of_json(line),
-        Some('[') => Err(
-            "expected a ray a line, not an array: {\"origin\":[0,0,5],\"direction\":[0,0,-1]}"
-                .to_owned(),
-        ),
-        _ => ray_of_words(line),
+    text.one_a_line("rays", is_head, |line| {
+        let ray = match line.chars().next() {
+            Some('{') => ray_of_json(line)?,
+            Some('[') => {
+                return Err(
+                    "expected a ray a line, not an array: {\"origin\":[0,0,5],\"direction\":[0,0,-1]}"
+                        .to_owned(),
+                );
+            }
+            _ => ray_of_words(line)?,
+        };
+        ray.check().map_err(|error| error.to_string())?;
+        Ok(ray)
     })
 }
 
@@ -27,8 +33,12 @@ pub fn points<F: Scalar>(text: Text) -> Result<Vec<[F; 3]>, InputError> {
     text.one_a_line("points", is_head, |line| {
         let numbers = numbers(line)?;
         let count = numbers.len();
-        <[F; 3]>::try_from(numbers)
-            .map_err(|_| format!("expected three numbers of a point, found {count}"))
+        let point = <[F; 3]>::try_from(numbers)
+            .map_err(|_| format!("expected three numbers of a point, found {count}"))?;
+        match point.iter().all(|x| x.is_finite()) {
+            true => Ok(point),
+            false => Err("the point has a coordinate that is not finite".to_owned()),
+        }
     })
 }
 

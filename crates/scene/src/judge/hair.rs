@@ -3,6 +3,7 @@
 use super::{Judged, Judgement, VISIBLE};
 use crate::bounds::Bounds;
 use crate::distance::{distance_to, length, longest_edge, normal, of_size_1};
+use crate::mesh::Triangle;
 use crate::ray::{InvalidRay, Ray};
 use crate::scene::{Nearest, Scene};
 use glam::DVec3;
@@ -49,39 +50,37 @@ impl<F: Float> Scene<F> {
         Ok(judged)
     }
 
-    /// True if the point at which a ray meets a face's plane is nearer to the face than anybody sees, on the interval and at
-    /// `latest` at the most; at t, if it is given.
-    pub(super) fn is_missed_by_a_hair(
+    /// The t of a point of the ray that is nearer to a face than anybody sees, on the interval and at `latest` at the most; the one that
+    /// is given, if one is.
+    pub(super) fn missed_by_a_hair(
         &self,
         ray: &Ray<F>,
         face: u32,
         t: Option<f64>,
         latest: f64,
-    ) -> bool {
-        let Some(place) = self.place_of(face) else {
-            return false;
-        };
+    ) -> Option<f64> {
+        let place = self.place_of(face)?;
         let triangle = self.triangle_at(place);
         let origin = DVec3::from(ray.origin.map(F::to_f64));
         let direction = DVec3::from(ray.direction.map(F::to_f64));
-        // A ray along the plane has no crossing of it, but a t perhaps.
-        let t = t.unwrap_or_else(|| self.plane_t(ray, face));
-        let point = origin + t * direction;
-        let ends = ray.t_min.to_f64()..=ray.t_max.to_f64().min(latest);
         let hair = VISIBLE * longest_edge(&triangle);
-        ends.contains(&t) && distance_to(&triangle, point.into()) <= hair
+        let (first, last) = (ray.t_min.to_f64(), ray.t_max.to_f64().min(latest));
+        let is_near = |t: &f64| {
+            let point = origin + *t * direction;
+            first <= *t && *t <= last && distance_to(&triangle, point.into()) <= hair
+        };
+        match t {
+            Some(t) => Some(t).filter(is_near),
+            // The distance falls up to the nearest point and grows behind it: on the interval it is least there, or at an end.
+            None => nearest_ts(&triangle, origin, direction)
+                .map(|t| t.min(last).max(first))
+                .find(is_near),
+        }
     }
 
-    /// The t at which a ray meets the plane of a face; NaN if it does not.
-    pub(super) fn plane_t(&self, ray: &Ray<F>, face: u32) -> f64 {
-        let Some(place) = self.place_of(face) else {
-            return f64::NAN;
-        };
-        let triangle = self.triangle_at(place);
-        let origin = DVec3::from(ray.origin.map(F::to_f64));
-        let direction = DVec3::from(ray.direction.map(F::to_f64));
-        let normal = normal(&triangle);
-        (DVec3::from(triangle[0]) - origin).dot(normal) / direction.dot(normal)
+    /// True if a ray passes a face, which it misses, by a hair.
+    pub(super) fn is_missed_by_a_hair(&self, ray: &Ray<F>, face: u32, t: Option<f64>) -> bool {
+        self.missed_by_a_hair(ray, face, t, f64::INFINITY).is_some()
     }
 
     /// The length of a face's longest edge; 0 if there is no such face.
@@ -91,7 +90,7 @@ impl<F: Float> Scene<F> {
     }
 
     /// The step of t that is too short to be seen at a face.
-    pub(super) fn hair(&self, ray: &Ray<F>, face: u32) -> f64 {
+    pub fn hair(&self, ray: &Ray<F>, face: u32) -> f64 {
         VISIBLE * self.longest_edge_of(face) / length_of(ray)
     }
 
@@ -135,9 +134,30 @@ impl<F: Float> Scene<F> {
             return false;
         };
         self.is_any_near(&checked, VISIBLE, |place| {
-            self.is_missed_by_a_hair(ray, self.face_at(place), None, f64::INFINITY)
+            self.is_missed_by_a_hair(ray, self.face_at(place), None)
         })
     }
+}
+
+/// Where a line may be nearest to a triangle: in its plane, at one of its corners, or beside one of its edges. Some may be NaN.
+fn nearest_ts(
+    triangle: &Triangle<f64>,
+    origin: DVec3,
+    direction: DVec3,
+) -> impl Iterator<Item = f64> {
+    let corners = triangle.map(|corner| DVec3::from(corner) - origin);
+    let size = direction.abs().max_element();
+    let direction = of_size_1(direction);
+    let normal = normal(triangle);
+    let in_plane = corners[0].dot(normal) / direction.dot(normal);
+    let at_corners = corners.map(|corner| corner.dot(direction) / direction.length_squared());
+    let beside_edges = [0, 1, 2].map(|i| {
+        let edge = of_size_1(corners[(i + 1) % 3] - corners[i]);
+        let across = direction.cross(edge);
+        corners[i].cross(edge).dot(across) / across.length_squared()
+    });
+    let all = [in_plane].into_iter().chain(at_corners).chain(beside_edges);
+    all.map(move |t| t / size)
 }
 
 /// The length of a ray's direction, in floats.

@@ -20,10 +20,10 @@ pub struct NamedHit {
 enum Place {
     /// The ray meets the face, in this passage.
     Met(usize),
-    /// The ray misses the face by a hair, near this passage if there is one.
-    ByAHair(Option<usize>),
-    /// Nowhere near.
-    Nowhere,
+    /// The ray misses the face by a hair, near this passage.
+    ByAHair(usize),
+    /// The ray misses the face by a hair, near no passage.
+    Alone(Judgement),
 }
 
 /// The hits that a program named in one passage.
@@ -56,15 +56,13 @@ impl<F: Float> Scene<F> {
                     there[i].met += 1;
                     Some(i)
                 }
-                Place::ByAHair(near) => {
+                Place::ByAHair(i) => {
                     kinds.insert(Judgement::Neighbour);
-                    if let Some(i) = near {
-                        there[i].by_a_hair += 1;
-                    }
-                    near
+                    there[i].by_a_hair += 1;
+                    Some(i)
                 }
-                Place::Nowhere => {
-                    kinds.insert(Judgement::Ghost);
+                Place::Alone(judgement) => {
+                    kinds.insert(judgement);
                     None
                 }
             };
@@ -72,7 +70,12 @@ impl<F: Float> Scene<F> {
                 continue;
             };
             if passage < last {
-                kinds.insert(Judgement::WrongOrder);
+                // No program tells two points in order that are nearer to each other than anybody sees.
+                let gap = passages[last].from.lower - passages[passage].to.upper;
+                kinds.insert(match self.hair(ray, hit.face) < gap {
+                    true => Judgement::WrongOrder,
+                    false => Judgement::Neighbour,
+                });
             }
             last = passage.max(last);
             if exact.is_some_and(|exact| self.is_off(ray, exact, hit)) {
@@ -94,15 +97,13 @@ impl<F: Float> Scene<F> {
             let judgement = judgement_of(passage, there, on_interval);
             kinds.insert(judgement);
             if lost.is_none() && judgement == Judgement::Lost {
-                lost = Some(Nearest {
-                    t: passage.from,
-                    faces: passage.faces.clone(),
-                });
+                lost = Some(nearest_of(passage));
             }
         }
         // The worst; of nothing, rightly, nothing.
         let worst = kinds.first().copied().unwrap_or(Judgement::Right);
-        Ok(Judged::new(worst, lost, None))
+        let hit = lost.or_else(|| passages.first().map(nearest_of));
+        Ok(Judged::new(worst, hit, None))
     }
 
     /// The place of a named hit among the passages; `exact` is the exact hit of its face, if the ray meets that.
@@ -118,14 +119,19 @@ impl<F: Float> Scene<F> {
         if let Some(place) = place.filter(|_| exact.is_some()) {
             return Place::Met(place);
         }
-        if !self.is_missed_by_a_hair(ray, hit.face, hit.t, f64::INFINITY) {
-            return Place::Nowhere;
-        }
-        let t = hit.t.unwrap_or_else(|| self.plane_t(ray, hit.face));
+        let Some(t) = self.missed_by_a_hair(ray, hit.face, hit.t, f64::INFINITY) else {
+            return Place::Alone(Judgement::Ghost);
+        };
         let hair = self.hair(ray, hit.face);
         let is_near =
             |passage: &Passage| (passage.from.lower - hair..=passage.to.upper + hair).contains(&t);
-        Place::ByAHair(passages.iter().position(is_near))
+        match passages.iter().position(is_near) {
+            Some(near) => Place::ByAHair(near),
+            None => Place::Alone(match t - ray.t_min.to_f64() <= hair {
+                true => Judgement::SelfHit,
+                false => Judgement::Neighbour,
+            }),
+        }
     }
 
     /// True if the t of a named hit is off by more than anybody sees.
@@ -179,6 +185,14 @@ impl<F: Float> Scene<F> {
             _ if seen <= count => Judgement::Neighbour,
             _ => Judgement::TooFew,
         })
+    }
+}
+
+/// The faces of a passage as those of a hit.
+fn nearest_of(passage: &Passage) -> Nearest {
+    Nearest {
+        t: passage.from,
+        faces: passage.faces.clone(),
     }
 }
 
