@@ -21,7 +21,7 @@ hairline {hairline} wrote. [The league](league.md) judges the triangle tests of 
 """
 
 LEGEND = """
-Wrong is an answer that may be seen: a miss where the mesh is hit, a face behind the nearest one, a face elsewhere, or a t that is off by
+Wrong is an answer that may be seen: a miss where the mesh is hit, a face behind the nearest one, a face elsewhere, the face where the ray starts, or a t that is off by
 more than 1/1000 of the face's longest edge. {rays}
 """
 

@@ -17,7 +17,8 @@ Judgement.__doc__ = """The judgement of an answer.
 Not wrong: RIGHT; TIE, one of several right answers; NEIGHBOUR, off by a hair, which nobody sees; NOT_DEFINED, a point at an open surface.
 
 Wrong: WRONG_T, off by over 1/1000 of the face's longest edge; LOST, a miss where the mesh is hit; FARTHER, a face behind the nearest one;
-GHOST, a face elsewhere that the ray does not meet, or a hit where nothing is; TOO_FEW and TOO_MANY hits; TWICE, one hit named twice;
+GHOST, a face elsewhere that the ray does not meet, or a hit where nothing is; SELF_HIT, the face that the ray starts at and misses by a
+hair; TOO_FEW and TOO_MANY hits; TWICE, one hit named twice;
 WRONG_ORDER, a hit named before one that is nearer; WRONG_SIDE of the surface."""
 
 
