@@ -6,6 +6,9 @@
  *     hairline_ray_f32 ray;             once for each ray
  *     hairline_prepare_ray_f32(&ray, origin, direction);
  *     if (hairline_hit_f32(&triangle, &ray, t_min, t_max, &answer)) ...
+ *     hairline_leaf_f32 leaf;           once for each leaf of a tree: up to 8 triangles, tested at a time
+ *     hairline_prepare_leaf_f32(&leaf, &triangles[first], count);
+ *     place = hairline_nearest_f32(&leaf, &ray, t_min, t_max, &answer);
  *
  * and the same with f64. It needs hairline_exact.h beside it, in C99, C++17 or CUDA, and answers as that does: HAIRLINE_EDGES, ends
  * that count, -ffast-math refused, subnormal numbers not flushed. Numbers are computed in double.
@@ -19,6 +22,11 @@
 #define HAIRLINE_PREPARED_H
 
 #include "hairline_exact.h"
+
+/* The most triangles of a leaf, which are tested at a time; at most 32. */
+#ifndef HAIRLINE_LEAF
+#define HAIRLINE_LEAF 8
+#endif
 
 #define HP_ROUNDING 0x1.28p-50 /* 9.25 u */
 #define HP_LEAST 0x1p-506      /* its square is more than underflow can add */
@@ -121,6 +129,41 @@ HAIRLINE_FUNCTION int hp_decide(const hp_triangle *k, const hp_ray *r, double t_
     return 2;
 }
 
+/* Triangles side by side, as vectors of a processor hold them. */
+typedef struct {
+    double a[3][HAIRLINE_LEAF], ca[3][HAIRLINE_LEAF], ab[3][HAIRLINE_LEAF], n[3][HAIRLINE_LEAF];
+    double edges[HAIRLINE_LEAF], area[HAIRLINE_LEAF];
+} hp_lanes;
+
+HAIRLINE_FUNCTION void hp_set_lane(hp_lanes *lanes, int lane, const hp_triangle *k) {
+    int i;
+    for (i = 0; i < 3; i++) {
+        lanes->a[i][lane] = k->a[i], lanes->ca[i][lane] = k->ca[i];
+        lanes->ab[i][lane] = k->ab[i], lanes->n[i][lane] = k->n[i];
+    }
+    lanes->edges[lane] = k->edges, lanes->area[lane] = k->area;
+}
+
+/* The numbers of hp_decide in each lane: a bit for each triangle that the ray does not surely miss. */
+HAIRLINE_FUNCTION unsigned hp_left(const hp_lanes *k, const hp_ray *r) {
+    const double *o = r->o, *d = r->d;
+    double past[HAIRLINE_LEAF];
+    unsigned left = 0;
+    int i;
+    for (i = 0; i < HAIRLINE_LEAF; i++) {
+        double sx = k->a[0][i] - o[0], sy = k->a[1][i] - o[1], sz = k->a[2][i] - o[2];
+        double mx = sy * d[2] - sz * d[1], my = sz * d[0] - sx * d[2], mz = sx * d[1] - sy * d[0];
+        double u = mx * k->ca[0][i] + my * k->ca[1][i] + mz * k->ca[2][i];
+        double v = mx * k->ab[0][i] + my * k->ab[1][i] + mz * k->ab[2][i];
+        double w = d[0] * k->n[0][i] + d[1] * k->n[1][i] + d[2] * k->n[2][i] - u - v;
+        double low = hp_lesser(hp_lesser(u, v), w), high = -hp_larger(hp_larger(u, v), w);
+        /* NaN where a number is. */
+        past[i] = hp_larger(low, high) + (k->edges[i] * r->reach + k->area[i] * r->speed);
+    }
+    for (i = 0; i < HAIRLINE_LEAF; i++) left |= (unsigned)!(past[i] < 0) << i;
+    return left;
+}
+
 #define HP_SCALAR(REAL, SUFFIX, LARGEST)                                                                                                \
     typedef struct {                                                                                                           \
         hp_triangle numbers;                                                                                                   \
@@ -165,6 +208,35 @@ HAIRLINE_FUNCTION int hp_decide(const hp_triangle *k, const hp_ray *r, double t_
         for (i = 0; i < 3; i++) o[i] = (REAL)r->o[i], d[i] = (REAL)r->d[i];                                                    \
         return hairline_exact_##SUFFIX(o, d, triangle->corners[0], triangle->corners[1], triangle->corners[2], t_min, t_max,   \
                                        answer);                                                                                \
+    }                                                                                                                          \
+                                                                                                                               \
+    /* Triangles of a leaf: their lanes, and where they are themselves. */                                                     \
+    typedef struct {                                                                                                           \
+        hp_lanes lanes;                                                                                                        \
+        const hairline_triangle_##SUFFIX *triangles;                                                                           \
+        int count;                                                                                                             \
+    } hairline_leaf_##SUFFIX;                                                                                                  \
+                                                                                                                               \
+    /* From count triangles, HAIRLINE_LEAF at most, which stay where they are. */                                              \
+    HAIRLINE_FUNCTION void hairline_prepare_leaf_##SUFFIX(hairline_leaf_##SUFFIX *leaf,                                        \
+                                                          const hairline_triangle_##SUFFIX *triangles, int count) {            \
+        int i;                                                                                                                 \
+        memset(leaf, 0, sizeof *leaf);                                                                                         \
+        leaf->triangles = triangles, leaf->count = count < HAIRLINE_LEAF ? count : HAIRLINE_LEAF;                              \
+        for (i = 0; i < leaf->count; i++) hp_set_lane(&leaf->lanes, i, &triangles[i].numbers);                                 \
+    }                                                                                                                          \
+                                                                                                                               \
+    /* The place of the triangle that is hit with the least t, or -1, which leaves *answer as it was. */                       \
+    HAIRLINE_FUNCTION int hairline_nearest_##SUFFIX(const hairline_leaf_##SUFFIX *leaf, const hairline_ray_##SUFFIX *ray,      \
+                                                    REAL t_min, REAL t_max, hairline_answer *answer) {                         \
+        unsigned left = hp_left(&leaf->lanes, &ray->numbers);                                                                  \
+        hairline_answer found;                                                                                                 \
+        int i, nearest = -1;                                                                                                   \
+        for (i = 0; i < leaf->count && left != 0; i++, left >>= 1) {                                                           \
+            if (!(left & 1u) || !hairline_hit_##SUFFIX(&leaf->triangles[i], ray, t_min, t_max, &found)) continue;              \
+            if (nearest < 0 || found.t < answer->t) nearest = i, *answer = found;                                              \
+        }                                                                                                                      \
+        return nearest;                                                                                                        \
     }
 
 HP_SCALAR(float, f32, FLT_MAX)

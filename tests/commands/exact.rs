@@ -20,6 +20,8 @@ const STRICT: [&str; 5] = [
 
 /// C99, and C++17 contracted.
 const C: &[&str] = &["-std=c99", "-pedantic", "-O2"];
+/// Triangles as those of leaves, which are tested at a time.
+const LEAF: &[&str] = &["-std=c99", "-pedantic", "-O3", "-march=native", "-DLEAF"];
 const CPP: &[&str] = &[
     "-xc++",
     "-std=c++17",
@@ -107,6 +109,7 @@ fn what_is_made_ready_first_is_as_right() {
         ("prepared-closed", "CLOSED", CPP),
         ("prepared-open", "OPEN", C),
         ("prepared-once", "ONCE", C),
+        ("prepared-leaf", "CLOSED", LEAF),
     ] {
         let Some(library) = built("prepared", name, edges, flags) else {
             return;

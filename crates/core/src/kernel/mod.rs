@@ -22,6 +22,7 @@ macro_rules! stores_triangle {
 }
 
 mod changed;
+mod entry;
 mod epsilon_text;
 pub mod gate;
 mod generic;
@@ -47,6 +48,7 @@ mod scalar_triple;
 mod woop_watertight;
 
 pub use changed::{Change, has_size, refuses_at};
+pub use entry::Entry;
 pub use epsilon_text::EpsilonText;
 pub use gate::{Deciding, Dimension, Gate, Measuring, Refuse, Role, Sink, Tunable, refused_by};
 pub use generic::Generic;
@@ -55,7 +57,7 @@ pub use preset::{PRESETS, Preset, PresetEntry};
 pub use recording::{Acceptance, Compared, Path};
 pub use registry::kept;
 pub use registry::{
-    Entry, KERNELS, Scalar, TRIANGLES, Table, all, changed, check_name, find, forms, in_arithmetic,
+    KERNELS, Scalar, TRIANGLES, Table, all, changed, check_name, find, forms, in_arithmetic,
     register, unnamed,
 };
 pub use runs::{ExactRun, Measured, TrackedRun};
