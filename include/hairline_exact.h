@@ -48,12 +48,27 @@
 #error "hairline_exact.h: doubles are computed with more than 53 bits: compile with -msse2 -mfpmath=sse, or the like"
 #endif
 
+/* Clang does not tell of parts of -ffast-math: none of them holds in this file. */
+#if defined(__clang__) && !defined(__CUDACC__)
+#pragma float_control(push)
+#pragma float_control(precise, on)
+#endif
+
 /* CUDA compiles these functions for both sides. */
 #ifndef HAIRLINE_FUNCTION
 #ifdef __CUDACC__
 #define HAIRLINE_FUNCTION static __host__ __device__ inline
 #else
 #define HAIRLINE_FUNCTION static inline
+#endif
+#endif
+
+/* What is seldom called stays out of the caller, and its stack too. */
+#ifndef HAIRLINE_SELDOM
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__CUDACC__)
+#define HAIRLINE_SELDOM static __attribute__((noinline, unused))
+#else
+#define HAIRLINE_SELDOM HAIRLINE_FUNCTION
 #endif
 #endif
 
@@ -313,7 +328,7 @@ HAIRLINE_FUNCTION double hx_larger(double a, double b) { return a > b ? a : b; }
 HAIRLINE_FUNCTION double hx_within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
 /* The answer by integers. */
-HAIRLINE_FUNCTION void hx_exact(double points[4][3], const double d[3], double t_min, double t_max, hairline_answer *answer) {
+HAIRLINE_SELDOM void hx_exact(double points[4][3], const double d[3], double t_min, double t_max, hairline_answer *answer) {
     hx_int p[4][3], direction[3], edges[3], det, n;
     int i, k, of_points = 4096, of_direction = 4096, largest = 0, exponent;
     answer->hit = 0, answer->asked = 1;
@@ -368,15 +383,15 @@ typedef struct {
 
 /* The rounded sum, and what is missing (Knuth). */
 HAIRLINE_FUNCTION double hx_two_sum(double x, double y, double *rest) {
-    double sum = x + y, of_y = sum - x, of_x = sum - of_y;
-    *rest = (x - of_x) + (y - of_y);
+    double sum = hx_stored(x + y), of_y = hx_stored(sum - x), of_x = hx_stored(sum - of_y);
+    *rest = hx_stored(x - of_x) + hx_stored(y - of_y);
     return sum;
 }
 
 /* The upper half of the digits of x (Veltkamp). */
 HAIRLINE_FUNCTION double hx_upper(double x) {
     double large = hx_product(0x8000001p0, x);
-    return large - (large - x);
+    return large - hx_stored(large - x);
 }
 
 /* The rounded product, and what is missing (Dekker). */
@@ -500,7 +515,7 @@ HAIRLINE_FUNCTION int hx_is_above_underflow(const double x[3]) {
 }
 
 /* The sign of U + V + W if the line hits the triangle, 0 if it misses it. 0 in sign is open, and the others are right. */
-HAIRLINE_FUNCTION int hx_passage(double points[4][3], const double d[3], const double size[3], int sign[3]) {
+HAIRLINE_SELDOM int hx_passage(double points[4][3], const double d[3], const double size[3], int sign[3]) {
     int k, whole = 0, largest = fabs(d[0]) >= fabs(d[1]) ? 0 : 1;
     if (fabs(d[2]) > fabs(d[largest])) largest = 2;
     for (k = 0; k < 3; k++) {
@@ -619,7 +634,8 @@ HAIRLINE_FUNCTION int hx_answer(double points[4][3], const double d[3], double t
 
 #ifndef HAIRLINE_ONLY_F32
 /* Does the ray o + t * d, t_min <= t <= t_max, hit the triangle? Vectors are arrays of three. Returns 1 for a hit, 0 for a miss.
- * A miss leaves *answer as it was: with its t as t_max, one answer can hold the nearest hit. */
+ * A miss leaves *answer as it was: with its t as t_max, one answer can hold the nearest hit. Where you throw hits away (culling, holes in
+ * textures) take another answer for each test. */
 HAIRLINE_FUNCTION int hairline_exact_f64(const double o[3], const double d[3], const double a[3], const double b[3], const double c[3],
                               double t_min, double t_max, hairline_answer *answer) {
     double points[4][3];
@@ -640,5 +656,9 @@ HAIRLINE_FUNCTION int hairline_exact_f32(const float o[3], const float d[3], con
     }
     return hx_answer(points, direction, t_min, t_max, FLT_MAX, 0x1p-25, answer);
 }
+
+#if defined(__clang__) && !defined(__CUDACC__)
+#pragma float_control(pop)
+#endif
 
 #endif

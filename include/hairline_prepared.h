@@ -13,7 +13,7 @@
  * and the same with f64. It needs hairline_exact.h beside it, in C99, C++17 or CUDA, and answers as that does: HAIRLINE_EDGES, ends
  * that count, -ffast-math refused, subnormal numbers not flushed. Numbers are computed in double.
  *
- * Why this is right (docs/design/margin.md has the proof): with s = a-o and N = (a-c)x(b-a), the weights of b, c and a times d.N are
+ * Why this is right (docs/design/margin.md has the proof): with s = a-o and N = (b-a)x(a-c), the weights of b, c and a times d.N are
  * U = (s x d).(a-c), V = (s x d).(b-a) and W = d.N - U - V. Whatever a compiler contracts, none of them is off by more than
  * 9.25 u |d| ((e+f) (|o|+|a|) + e f) with e and f the lengths of a-c and b-a: two factors of the triangle times two of the ray, made
  * once. Beyond that margin their signs decide. Within it, at an end, and for numbers out of range hairline_exact_f32 is asked.
@@ -22,6 +22,11 @@
 #define HAIRLINE_PREPARED_H
 
 #include "hairline_exact.h"
+
+#if defined(__clang__) && !defined(__CUDACC__)
+#pragma float_control(push)
+#pragma float_control(precise, on)
+#endif
 
 /* The most triangles of a leaf, which are tested at a time; at most 32. */
 #ifndef HAIRLINE_LEAF
@@ -192,22 +197,25 @@ HAIRLINE_FUNCTION unsigned hp_left(const hp_lanes *k, const hp_ray *r) {
         hp_prepare_ray(&ray->numbers, vectors[0], vectors[1]);                                                                 \
     }                                                                                                                          \
                                                                                                                                \
+    HAIRLINE_SELDOM int hp_ask_##SUFFIX(const hairline_triangle_##SUFFIX *triangle, const hp_ray *r, REAL t_min, REAL t_max,   \
+                                        hairline_answer *answer) {                                                             \
+        REAL o[3], d[3];                                                                                                       \
+        int i;                                                                                                                 \
+        for (i = 0; i < 3; i++) o[i] = (REAL)r->o[i], d[i] = (REAL)r->d[i];                                                    \
+        return hairline_exact_##SUFFIX(o, d, triangle->corners[0], triangle->corners[1], triangle->corners[2], t_min, t_max,   \
+                                       answer);                                                                                \
+    }                                                                                                                          \
+                                                                                                                               \
     /* 1 for a hit with t_min <= t <= t_max, 0 for a miss, which leaves *answer as it was. */                                  \
     HAIRLINE_FUNCTION int hairline_hit_##SUFFIX(const hairline_triangle_##SUFFIX *triangle, const hairline_ray_##SUFFIX *ray,  \
                                                 REAL t_min, REAL t_max, hairline_answer *answer) {                             \
-        const hp_ray *r = &ray->numbers;                                                                                       \
-        REAL o[3], d[3];                                                                                                       \
-        int i;                                                                                                                 \
-        switch (hp_decide(&triangle->numbers, r, t_min, t_max, answer)) {                                                      \
+        switch (hp_decide(&triangle->numbers, &ray->numbers, t_min, t_max, answer)) {                                          \
         case 0: return 0;                                                                                                      \
         case 1:                                                                                                                \
             answer->t = hx_within(answer->t, hx_larger(t_min, -LARGEST), t_max < LARGEST ? t_max : LARGEST);                   \
             return 1;                                                                                                          \
-        default: break;                                                                                                        \
+        default: return hp_ask_##SUFFIX(triangle, &ray->numbers, t_min, t_max, answer);                                        \
         }                                                                                                                      \
-        for (i = 0; i < 3; i++) o[i] = (REAL)r->o[i], d[i] = (REAL)r->d[i];                                                    \
-        return hairline_exact_##SUFFIX(o, d, triangle->corners[0], triangle->corners[1], triangle->corners[2], t_min, t_max,   \
-                                       answer);                                                                                \
     }                                                                                                                          \
                                                                                                                                \
     /* Triangles of a leaf: their lanes, and where they are themselves. */                                                     \
@@ -231,10 +239,11 @@ HAIRLINE_FUNCTION unsigned hp_left(const hp_lanes *k, const hp_ray *r) {
                                                     REAL t_min, REAL t_max, hairline_answer *answer) {                         \
         unsigned left = hp_left(&leaf->lanes, &ray->numbers);                                                                  \
         hairline_answer found;                                                                                                 \
+        double least = 0;                                                                                                      \
         int i, nearest = -1;                                                                                                   \
         for (i = 0; i < leaf->count && left != 0; i++, left >>= 1) {                                                           \
             if (!(left & 1u) || !hairline_hit_##SUFFIX(&leaf->triangles[i], ray, t_min, t_max, &found)) continue;              \
-            if (nearest < 0 || found.t < answer->t) nearest = i, *answer = found;                                              \
+            if (nearest < 0 || found.t < least) nearest = i, least = found.t, *answer = found;                                 \
         }                                                                                                                      \
         return nearest;                                                                                                        \
     }
@@ -242,6 +251,10 @@ HAIRLINE_FUNCTION unsigned hp_left(const hp_lanes *k, const hp_ray *r) {
 HP_SCALAR(float, f32, FLT_MAX)
 #ifndef HAIRLINE_ONLY_F32
 HP_SCALAR(double, f64, DBL_MAX)
+#endif
+
+#if defined(__clang__) && !defined(__CUDACC__)
+#pragma float_control(pop)
 #endif
 
 #endif

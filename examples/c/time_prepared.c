@@ -95,6 +95,44 @@ static double coordinate(void) { return floor(1024 * uniform() - 512) / 256; }
             }                                                                                                                   \
         printf("%-4s %-26s %8.1f %8.1f (%.2f) %8.1f (%.2f)   hits %d %d %d\n", #SUFFIX, name, least[0], least[1],               \
                least[1] / least[0], least[2], least[2] / least[0], found[0], found[1], found[2]);                               \
+    }                                                                                                                           \
+                                                                                                                                \
+    /* Each ray at the eight triangles from its own on: one by one as published, and as a leaf. */                              \
+    static hairline_leaf_##SUFFIX leaves_##SUFFIX[COUNT - HAIRLINE_LEAF];                                                       \
+    static void leaf_##SUFFIX(const char *name, double hits) {                                                                  \
+        double least[2] = {HUGE_VAL, HUGE_VAL};                                                                                 \
+        int run, kind, n, i, found[2] = {0, 0};                                                                                 \
+        make_##SUFFIX(hits, 0);                                                                                                 \
+        for (n = 0; n < COUNT - HAIRLINE_LEAF; n++)                                                                             \
+            hairline_prepare_leaf_##SUFFIX(&leaves_##SUFFIX[n], &triangles_##SUFFIX[n], HAIRLINE_LEAF);                         \
+        for (run = 0; run < RUNS; run++)                                                                                        \
+            for (kind = 0; kind < 2; kind++) {                                                                                  \
+                double start = now(), took;                                                                                     \
+                volatile double sum = 0;                                                                                        \
+                found[kind] = 0;                                                                                                \
+                for (n = 0; n < COUNT - HAIRLINE_LEAF; n++) {                                                                   \
+                    case_##SUFFIX k = cases_##SUFFIX[n];                                                                        \
+                    REAL t, u, v, first = (REAL)HUGE_VAL;                                                                       \
+                    hairline_answer answer;                                                                                     \
+                    int nearest = -1;                                                                                           \
+                    if (kind == 1) {                                                                                            \
+                        nearest = hairline_nearest_##SUFFIX(&leaves_##SUFFIX[n], &rays_##SUFFIX[n], 0, (REAL)HUGE_VAL, &answer); \
+                        if (nearest >= 0) sum = sum + answer.t;                                                                 \
+                    } else {                                                                                                    \
+                        for (i = 0; i < HAIRLINE_LEAF; i++) {                                                                   \
+                            const case_##SUFFIX *at = &cases_##SUFFIX[n + i];                                                   \
+                            memcpy(k.a, at->a, sizeof k.a), memcpy(k.b, at->b, sizeof k.b), memcpy(k.c, at->c, sizeof k.c);     \
+                            if (moller_trumbore_##SUFFIX(&k, &t, &u, &v) && t < first) first = t, nearest = i;                  \
+                        }                                                                                                       \
+                        if (nearest >= 0) sum = sum + first;                                                                    \
+                    }                                                                                                           \
+                    found[kind] += nearest >= 0;                                                                                \
+                }                                                                                                               \
+                took = (now() - start) / (COUNT - HAIRLINE_LEAF) / HAIRLINE_LEAF;                                               \
+                if (took < least[kind]) least[kind] = took;                                                                     \
+            }                                                                                                                   \
+        printf("%-4s %-26s %8.1f %8.1f (%.2f)   hits %d %d\n", #SUFFIX, name, least[0], least[1], least[1] / least[0], found[0], \
+               found[1]);                                                                                                       \
     }
 
 SCALAR(float, f32, 1e-6f, fabsf)
@@ -106,5 +144,8 @@ int main(void) {
     line_f32("beside", 0, 0), line_f64("beside", 0, 0);
     line_f32("1 hit in 10", 0.1, 0), line_f64("1 hit in 10", 0.1, 0);
     line_f32("the same, 1 edge in 400", 0.1, 0.0025), line_f64("the same, 1 edge in 400", 0.1, 0.0025);
+    printf("\nnanoseconds a triangle of a leaf of %d\n", HAIRLINE_LEAF);
+    leaf_f32("no hit of its own", 0), leaf_f64("no hit of its own", 0);
+    leaf_f32("1 hit of its own in 10", 0.1), leaf_f64("1 hit of its own in 10", 0.1);
     return 0;
 }

@@ -10,7 +10,7 @@
 //! something underflows. Both are added to it on one side and subtracted on the other, and the ends are rounded outwards: p is surely
 //! between `f32` numbers. If s were beyond 2^60, it is 0.
 //!
-//! **Plain axes.** An axis is plain if the scaled direction d is 0 there, or if |d| ≥ 2^-60 and the bounds of p are within 2^60. On an
+//! **Plain axes.** An axis is plain if the direction is 0 there, before it is scaled, or if |d| ≥ 2^-60 and the bounds of p are within 2^60. On an
 //! axis that is not plain the test does not look: its reciprocal is NaN, no comparison with NaN holds, and so the axis bounds nothing.
 //! That loses time and no box.
 //!
@@ -31,8 +31,8 @@
 //! N - (C|N| + 2^-126) ≤ n ≤ σ ≤ f ≤ F + (C|F| + 2^-126),
 //!
 //! where 16u covers three roundings of each side. An infinite N or F of a box that is met is -∞ or
-//! ∞: both sides then are that infinity. A box beside the line on an axis with d = 0, or a box without points, makes one side ∞ - ∞, a
-//! NaN, which the comparison refuses.
+//! ∞: both sides then are that infinity. A box beside the line on an axis with d = 0 makes one side ∞ - ∞, a
+//! NaN, which the comparison refuses. So does a box without points, unless no axis is plain; no face is in it.
 
 use crate::aabb::{Boxes, LANES, exponent_of};
 use crate::ray::Ray;
