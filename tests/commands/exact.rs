@@ -393,3 +393,27 @@ fn flags_and_names_that_would_change_answers_are_refused() {
         );
     }
 }
+
+#[test]
+fn parts_of_fast_math_that_clang_does_not_tell_of_change_nothing() {
+    let folder = scratch("exact-clang");
+    let include = format!("-I{HERE}/include");
+    for example in ["exact", "prepared"] {
+        let source = PathBuf::from(HERE).join(format!("examples/c/{example}.c"));
+        let library = folder.join(format!("lib{example}.so"));
+        let built = Command::new("clang")
+            .args(["-O2", "-shared", "-fPIC", "-fassociative-math"])
+            .args(["-fno-signed-zeros", "-fno-trapping-math"])
+            .args([&include, "-o"])
+            .args([&library, &source])
+            .arg("-lm")
+            .output();
+        let Ok(built) = built else {
+            not_tested("there is no 'clang' on this machine");
+            return;
+        };
+        let said = String::from_utf8_lossy(&built.stderr);
+        assert!(built.status.success(), "{said}");
+        hits_exactly_one(library.to_str().unwrap());
+    }
+}
