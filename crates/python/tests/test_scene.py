@@ -140,7 +140,7 @@ def test_a_wrong_ray_is_a_picture(tmp_path):
     assert drawn.tag == "{http://www.w3.org/2000/svg}svg"
     words = " ".join(it.text for it in drawn.iter("{http://www.w3.org/2000/svg}text"))
     assert "exact: face 3" in words and "answer: face 0" in words
-    assert "Farther face: the nearest is face 3 at t = 4.25; answered face 0 at t = 5.0, 0.530 longest edges behind it." in words
+    assert "Farther face: the nearest is face 3 at t = 4.25; answered face 0 at t = 5.0, which it meets 0.530 longest edges behind." in words
     wrong.save(tmp_path / "wrong.svg")
     assert (tmp_path / "wrong.svg").read_text(encoding="utf-8") == wrong
     assert "answer:" not in scene.picture(THROUGH[0], DOWN)

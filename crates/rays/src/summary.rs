@@ -68,7 +68,7 @@ const NEAR: f64 = 1e-6;
 /// A ray that meets a face at a lower slope grazes it.
 const SLOPE: f64 = 1e-3;
 
-/// How the rays of wrong answers meet the mesh: at the hit that is judged, or of counts anywhere.
+/// How the rays of wrong answers meet the mesh: at the hit that is judged, or else where that is most delicate.
 fn wrong_rays<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<WrongRays, BadRay> {
     let wrong = rays_of(run, judged, Judgement::is_wrong);
     let passages = of_all(wrong.len(), |i| run.scene.passages(wrong[i].1));
@@ -76,31 +76,36 @@ fn wrong_rays<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<WrongR
         index: wrong[bad.index].0,
         ..bad
     })?;
-    let is_of_count = run.answers.kind() == AnswerKind::Count;
+    let is_of_one = matches!(run.answers.kind(), AnswerKind::Nearest | AnswerKind::Any);
     let mut counts = WrongRays::default();
     for ((index, ray), passages) in wrong.into_iter().zip(passages) {
-        let hit = judged[index].hit.as_ref();
-        let is_at_edge = match is_of_count {
-            true => passages.iter().any(|it| 1 < it.faces.len()),
-            false => hit.is_some_and(|it| 1 < it.faces.len()),
+        let Judged { judgement, hit, .. } = &judged[index];
+        let met: Vec<&[u32]> = match is_of_one || *judgement == Judgement::Lost {
+            true => hit.iter().map(|hit| &hit.faces[..]).collect(),
+            false => passages.iter().map(|it| &it.faces[..]).collect(),
         };
-        let count = match hit {
+        let meetings = met.iter().map(|faces| match faces {
+            [face] => meeting(&run.scene, ray, *face),
+            _ => Meeting::AtEdge,
+        });
+        let is_in_plane = passages.iter().any(|it| it.is_segment);
+        let count = match meetings.min() {
             None => &mut counts.nothing,
-            _ if passages.iter().any(|it| it.is_segment) => &mut counts.in_plane,
-            _ if is_at_edge => &mut counts.at_edge,
-            Some(hit) => match meeting(&run.scene, ray, hit.faces[0]) {
-                Meeting::NearEdge => &mut counts.near_edge,
-                Meeting::Grazing => &mut counts.grazing,
-                Meeting::Inside => &mut counts.inside,
-            },
+            Some(_) if is_in_plane => &mut counts.in_plane,
+            Some(Meeting::AtEdge) => &mut counts.at_edge,
+            Some(Meeting::NearEdge) => &mut counts.near_edge,
+            Some(Meeting::Grazing) => &mut counts.grazing,
+            Some(Meeting::Inside) => &mut counts.inside,
         };
         *count += 1;
     }
     Ok(counts)
 }
 
-/// How a ray meets the inside of a face.
+/// How a ray meets a face, the most delicate first.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Meeting {
+    AtEdge,
     NearEdge,
     Grazing,
     Inside,
