@@ -63,15 +63,6 @@
 #endif
 #endif
 
-/* What is seldom called stays out of the caller, and its stack too. */
-#ifndef HAIRLINE_SELDOM
-#if (defined(__GNUC__) || defined(__clang__)) && !defined(__CUDACC__)
-#define HAIRLINE_SELDOM static __attribute__((noinline, unused))
-#else
-#define HAIRLINE_SELDOM HAIRLINE_FUNCTION
-#endif
-#endif
-
 /* After this a compiler no longer knows how x was computed. */
 #ifndef HAIRLINE_BARRIER
 #if (defined(__GNUC__) || defined(__clang__)) && defined(__SSE2__)
@@ -105,6 +96,15 @@ HAIRLINE_FUNCTION double hairline_difference_f64(double x, double y) {
     HAIRLINE_BARRIER(double, y);
     return x - y;
 }
+#endif
+#endif
+
+/* What is seldom called stays out of the caller, and its stack too. */
+#ifndef HAIRLINE_SELDOM
+#if (defined(__GNUC__) || defined(__clang__)) && !defined(__CUDACC__)
+#define HAIRLINE_SELDOM static __attribute__((noinline, unused))
+#else
+#define HAIRLINE_SELDOM HAIRLINE_FUNCTION
 #endif
 #endif
 
