@@ -5,7 +5,7 @@ use crate::kernel::Scalar;
 use crate::record::{group_digits, number_of};
 use crate::report::Format;
 use crate::report::page::{Block, Page, Paged};
-use crate::single::joined;
+use crate::single::{joined, place_name};
 use hairline_scene::{Location, OpenEdge, Scene, Winding};
 use serde::Serialize;
 
@@ -62,23 +62,14 @@ pub fn located<F: Scalar>(scene: &Scene<F>, points: &[[F; 3]]) -> Result<Located
 
 fn told(location: Location) -> LocatedPoint {
     let nowhere = LocatedPoint {
-        place: "not defined",
+        place: place_name(&location),
         winding: None,
         faces: Vec::new(),
         open_at: None,
     };
     match location {
-        Location::On(faces) => LocatedPoint {
-            place: "on",
-            faces,
-            ..nowhere
-        },
+        Location::On(faces) => LocatedPoint { faces, ..nowhere },
         Location::Off(winding) => LocatedPoint {
-            place: if winding.is_zero() {
-                "outside"
-            } else {
-                "inside"
-            },
             winding: match winding {
                 Winding::Number(number) => Some(number),
                 Winding::IsOdd(_) => None,

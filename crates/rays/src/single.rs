@@ -6,7 +6,7 @@ use crate::corpus::lines::{AnyCase, bare_case};
 use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
 use hairline_boxes::BoxCase;
-use hairline_scene::Ray;
+use hairline_scene::{Location, Ray};
 
 /// The ray against a face.
 pub fn case_of<F: Scalar>(mesh: &Mesh, ray: &Ray<F>, face: u32) -> Case<F> {
@@ -55,6 +55,16 @@ pub fn faces_in_words(faces: &[u32], most: usize) -> String {
     match faces.len() {
         1 => format!("face {}", words[0]),
         _ => format!("faces {}", words.join(", ")),
+    }
+}
+
+/// The place of a point in a word.
+pub fn place_name(location: &Location) -> &'static str {
+    match location {
+        Location::On(_) => "on",
+        Location::NotDefined(_) => "not defined",
+        Location::Off(winding) if winding.is_zero() => "outside",
+        Location::Off(_) => "inside",
     }
 }
 

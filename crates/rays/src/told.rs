@@ -10,7 +10,7 @@ use crate::record::{group_digits, number_of};
 use crate::report::page::Picture;
 use crate::result::{EachAnswer, WrongAnswer, short};
 use crate::run::JudgedRun;
-use crate::single::{explain_command, faces_in_words, joined};
+use crate::single::{explain_command, faces_in_words, joined, place_name};
 use hairline_scene::{Answer, InvalidRay, Judged, Judgement, Location, Nearest, Ray, Scene};
 
 /// How many wrong answers are told with their commands.
@@ -234,14 +234,9 @@ fn exact_of<F: Scalar>(
     let ray = match &run.asked {
         Asked::Rays(rays) => &rays[index],
         Asked::Points(points) => {
-            let place = match run.scene.locate(points[index])? {
-                Location::On(_) => "on",
-                Location::NotDefined(_) => "not defined",
-                Location::Off(winding) if winding.is_zero() => "outside",
-                Location::Off(_) => "inside",
-            };
+            let location = run.scene.locate(points[index])?;
             return Ok(ExactCells {
-                text: place.to_owned(),
+                text: place_name(&location).to_owned(),
                 t: None,
             });
         }

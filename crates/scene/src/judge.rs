@@ -193,8 +193,15 @@ impl<F: Float> Scene<F> {
             return Judgement::Ghost;
         };
         let hair = self.hair(ray, face);
-        let is_before = nearest.is_none_or(|nearest| hair < nearest.t.lower - t);
-        match is_before && t - ray.t_min.to_f64() <= hair {
+        match nearest.is_none_or(|nearest| hair < nearest.t.lower - t) {
+            true => self.of_hit_before(ray, face, t),
+            false => Judgement::Neighbour,
+        }
+    }
+
+    /// Judges a face that the ray passes by a hair at a t, where no exact hit is: at the ray's start everybody sees it.
+    fn of_hit_before(&self, ray: &Ray<F>, face: u32, t: f64) -> Judgement {
+        match t - ray.t_min.to_f64() <= self.hair(ray, face) {
             true => Judgement::SelfHit,
             false => Judgement::Neighbour,
         }

@@ -174,11 +174,9 @@ fn one_word(line: &str, field: &str) -> Result<String, String> {
 /// All hits: a line each, with the ray's number from 0, the face and its t if there is one; those of a ray in the program's order.
 fn all(text: Text, asked: usize, faces: usize) -> Result<Vec<Vec<NamedHit>>, InputError> {
     let mut answers = vec![Vec::new(); asked];
-    text.for_each_line(|number, line| {
-        if number != 1 || !is_head(line) {
-            let hit = hit(line, asked, faces)?;
-            answers[hit.ray].push(hit.named);
-        }
+    text.for_each_line(is_head, |line| {
+        let hit = hit(line, asked, faces)?;
+        answers[hit.ray].push(hit.named);
         Ok(())
     })?;
     Ok(answers)

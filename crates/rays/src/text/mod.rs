@@ -23,24 +23,26 @@ pub struct Text<'a> {
 }
 
 impl Text<'_> {
-    /// Calls `take` with each line that says something, and with its number from 1. Blank lines and those that begin with # are
+    /// Calls `take` with each line that says something. A first line that is a head, blank lines, and those that begin with # are
     /// skipped. An error that `take` gives is one in that line.
     fn for_each_line(
         self,
-        mut take: impl FnMut(usize, &str) -> Result<(), String>,
+        is_head: impl Fn(&str) -> bool,
+        mut take: impl FnMut(&str) -> Result<(), String>,
     ) -> Result<(), InputError> {
         let Text { name, bytes } = self;
         for line in TextLines::new(BufReader::new(bytes), name, LONGEST_LINE) {
             let (number, text) = line?;
             let text = line::without_mark(&text);
-            if !text.starts_with('#') {
-                take(number, text).map_err(|message| InputError::at(name, number, message))?;
+            if text.starts_with('#') || number == 1 && is_head(text) {
+                continue;
             }
+            take(text).map_err(|message| InputError::at(name, number, message))?;
         }
         Ok(())
     }
 
-    /// Reads one thing a line. A first line of names alone is skipped.
+    /// Reads one thing a line.
     fn one_a_line<T>(
         self,
         what: &str,
@@ -49,10 +51,8 @@ impl Text<'_> {
     ) -> Result<Vec<T>, InputError> {
         let name = self.name;
         let mut all = Vec::new();
-        self.for_each_line(|number, line| {
-            if number != 1 || !is_head(line) {
-                all.push(read(line)?);
-            }
+        self.for_each_line(is_head, |line| {
+            all.push(read(line)?);
             Ok(())
         })?;
         match all.is_empty() {

@@ -127,10 +127,7 @@ impl<F: Float> Scene<F> {
             |passage: &Passage| (passage.from.lower - hair..=passage.to.upper + hair).contains(&t);
         match passages.iter().position(is_near) {
             Some(near) => Place::ByAHair(near),
-            None => Place::Alone(match t - ray.t_min.to_f64() <= hair {
-                true => Judgement::SelfHit,
-                false => Judgement::Neighbour,
-            }),
+            None => Place::Alone(self.of_hit_before(ray, hit.face, t)),
         }
     }
 
