@@ -3,15 +3,19 @@
 use crate::program::{ends, flat};
 use crate::rays::folder;
 use std::fs;
+use std::path::Path;
+
+/// What is said of a program's answers to the rays of `r.csv`, in one line.
+fn judged(folder: &Path, answers: &str, more: &[&str], code: i32) -> String {
+    fs::write(folder.join("a.csv"), answers).unwrap();
+    let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+    flat(&ends(folder, &[&words, more].concat(), code).0)
+}
 
 #[test]
 fn answers_are_judged_by_kind() {
     let folder = folder("rays-answers");
-    let judged = |answers: &str, code: i32| {
-        fs::write(folder.join("a.csv"), answers).unwrap();
-        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
-        flat(&ends(&folder, &words, code).0)
-    };
+    let judged = |answers: &str, code: i32| judged(&folder, answers, &[], code);
     // Any face of a tie; heads, comments and each word for a miss.
     for right in [
         "face,t\n3,4.25\n2,4\n-1,\n",
@@ -72,11 +76,7 @@ fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
         .map(|i| format!("0.{i:02}5,0.{i:02},1,0,0,-1\n"))
         .collect();
     fs::write(folder.join("r.csv"), rays).unwrap();
-    let judged = |answers: &str, more: &[&str], code: i32| {
-        fs::write(folder.join("a.csv"), answers).unwrap();
-        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
-        flat(&ends(&folder, &[&words, more].concat(), code).0)
-    };
+    let judged = |answers: &str, more: &[&str], code: i32| judged(&folder, answers, more, code);
     let from_one = judged(&"1\n".repeat(10), &[], 1);
     assert!(
         from_one.contains("The faces are numbered otherwise: with -1 most wrong ones are right."),
@@ -375,12 +375,7 @@ fn points_that_are_nearer_than_anybody_sees_have_no_order() {
     let near = "v 0 0 -1e-9\nv 1 0 -1e-9\nv 1 1 -1e-9\nf 9 10 11\n";
     fs::write(folder.join("t.obj"), [TWO_WALLS, near].concat()).unwrap();
     fs::write(folder.join("r.csv"), "0.75,0.25,1,0,0,-1\n").unwrap();
-    let judged = |answers: &str, code: i32| {
-        fs::write(folder.join("a.csv"), answers).unwrap();
-        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
-        let words = [&words[..], &["--answered", "all"]].concat();
-        flat(&ends(&folder, &words, code).0)
-    };
+    let judged = |answers: &str, code: i32| judged(&folder, answers, &["--answered", "all"], code);
     assert!(judged("0,0\n0,4\n0,2\n", 0).contains(" right 1 "));
     assert!(judged("0,4\n0,0\n0,2\n", 0).contains(" neighbour 1 "));
     assert!(judged("0,2\n0,0\n0,4\n", 1).contains(" wrong order 1 "));
@@ -392,11 +387,7 @@ fn the_face_that_a_ray_starts_at_is_a_self_hit_where_it_is_missed() {
     fs::write(folder.join("t.obj"), TWO_WALLS).unwrap();
     // From a hair behind the first wall to the second one.
     fs::write(folder.join("r.csv"), "0.75,0.25,-1e-9,0,0,-1\n").unwrap();
-    let judged = |answers: &str, more: &[&str], code: i32| {
-        fs::write(folder.join("a.csv"), answers).unwrap();
-        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
-        flat(&ends(&folder, &[&words[..], more].concat(), code).0)
-    };
+    let judged = |answers: &str, more: &[&str], code: i32| judged(&folder, answers, more, code);
     judged("2,0.999999999\n", &[], 0);
     for answer in ["0,1e-12\n", "0\n"] {
         let wrong = judged(answer, &[], 1);
@@ -418,9 +409,7 @@ fn a_face_that_is_missed_by_a_hair_is_a_neighbour_with_and_without_t() {
     // Along the first wall, a hair above it and a hair below its slope: the plane is met far beyond its rim.
     fs::write(folder.join("r.csv"), "-1,0.25,1e-7,1,0,-1e-9\n").unwrap();
     for answer in ["0,1.5\n", "0\n"] {
-        fs::write(folder.join("a.csv"), answer).unwrap();
-        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
-        let said = flat(&ends(&folder, &words, 0).0);
+        let said = judged(&folder, answer, &[], 0);
         assert!(said.contains(" neighbour 1 "), "{answer}: {said}");
     }
 }
@@ -431,9 +420,7 @@ fn it_is_said_where_wrong_answers_lie() {
     fs::write(folder.join("t.obj"), TWO_WALLS).unwrap();
     let judged = |rays: &str, answers: &str, more: &[&str]| {
         fs::write(folder.join("r.csv"), rays).unwrap();
-        fs::write(folder.join("a.csv"), answers).unwrap();
-        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
-        flat(&ends(&folder, &[&words[..], more].concat(), 1).0)
+        judged(&folder, answers, more, 1)
     };
     let rays = "0.5,0.49999999,1,0,0,-1\n-1,0.25,1.35e-3,1,0,-9e-4\n0.75,0.25,1,0,0,-1\n";
     let said = judged(rays, "-1\n-1\n-1\n", &[]);
