@@ -1,0 +1,119 @@
+//! `hairline-rt leaks`: rays from inside a closed mesh that a device lets out, each decided exactly.
+
+mod aim;
+mod report;
+
+use crate::device::Device;
+use crate::failure::Failure;
+use crate::input::read_mesh;
+use crate::output::{print, write_json};
+use crate::structure::{Build, Part};
+use crate::world::World;
+use aim::{Aim, Aimed, Aimer};
+use clap::ValueHint;
+use report::{Leaks, Row, Scaled};
+use std::process::ExitCode;
+
+/// Rays from inside a closed mesh that the device lets out, or hits twice
+///
+/// Origins are points that are exactly inside, so each ray has to meet the mesh, an odd number of times where it crosses it only.
+/// Lost rays are decided again, exactly. Ends with 1 if rays are lost.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// A closed mesh: OBJ, PLY, STL or glTF; numbers are rounded to f32
+    #[arg(value_hint = ValueHint::FilePath)]
+    mesh: String,
+    /// Rays of each count
+    #[arg(short = 'n', long, default_value_t = 200_000, value_parser = clap::value_parser!(u64).range(1..))]
+    count: u64,
+    /// Other rays
+    #[arg(long, default_value_t = 1)]
+    seed: u32,
+    /// Cuts the box of the mesh into K × K × K tiles, each an instance with a translation of its own
+    #[arg(long, value_name = "K", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=64))]
+    tiles: u32,
+    /// The mesh in all sizes too: scaled by 1e-44 to 1e37
+    #[arg(long)]
+    scales: bool,
+    /// The counts as JSON, too
+    #[arg(short, long, value_hint = ValueHint::FilePath)]
+    output: Option<String>,
+}
+
+/// The powers of ten that meshes are scaled by.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -44..=37;
+
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+    let mesh = read_mesh(&arguments.mesh)?;
+    let device = Device::open()?;
+    let aimer = Aimer::new(&device, arguments.count, arguments.seed);
+    let world =
+        World::new(&mesh, 1.0).map_err(|why| Failure::data(format!("{}: {why}", mesh.name)))?;
+
+    let whole = vec![Part::of(world.triangles.clone())];
+    let mut rows = vec![
+        Row::new(
+            "one structure",
+            aimed(&aimer, &world, &whole, Build::FastTrace)?,
+        ),
+        Row::new(
+            "built for speed of building",
+            aimed(&aimer, &world, &whole, Build::FastBuild)?,
+        ),
+    ];
+    let tiled = world.on_a_grid();
+    let tiled = tiled.map_err(|why| Failure::data(format!("{}, for tiles: {why}", mesh.name)))?;
+    let tiles = tiled.tiles(arguments.tiles);
+    let name = format!("{} instances with translations", tiles.len());
+    rows.push(Row::new(
+        &name,
+        aimed(&aimer, &tiled, &tiles, Build::FastTrace)?,
+    ));
+
+    let scaled = match arguments.scales {
+        true => scaled(&aimer, &mesh)?,
+        false => Vec::new(),
+    };
+    let leaks = Leaks {
+        device: device.name(),
+        mesh: mesh.name.clone(),
+        faces: mesh.triangles.len() as u64,
+        rays: arguments.count,
+        seed: arguments.seed,
+        rows,
+        scaled,
+    };
+    print(&leaks)?;
+    if let Some(path) = &arguments.output {
+        write_json(path, &leaks)?;
+    }
+    Ok(ExitCode::from(u8::from(leaks.any_lost())))
+}
+
+/// Counts of rays at each kind of target.
+fn aimed(
+    aimer: &Aimer,
+    world: &World,
+    parts: &[Part],
+    build: Build,
+) -> Result<Vec<Aimed>, Failure> {
+    Aim::ALL
+        .iter()
+        .map(|aim| aimer.count(world, parts, build, *aim))
+        .collect()
+}
+
+/// Counts of rays at vertices, for the mesh in all sizes.
+fn scaled(aimer: &Aimer, mesh: &hairline_files::mesh::Mesh) -> Result<Vec<Scaled>, Failure> {
+    let mut all = Vec::new();
+    for exponent in EXPONENTS {
+        // A size at which numbers of f32 do not hold the mesh is no fault of the device.
+        let Ok(world) = World::new(mesh, 10f64.powi(exponent)) else {
+            continue;
+        };
+        let part = Part::of(world.triangles.clone());
+        let counted = aimer.count(&world, &[part], Build::FastTrace, Aim::Vertex)?;
+        all.push(Scaled { exponent, counted });
+    }
+    Ok(all)
+}

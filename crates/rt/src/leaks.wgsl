@@ -1,0 +1,75 @@
+// Rays from points inside a closed mesh, aimed at its vertices, edges or faces: each has to meet it.
+
+struct Task { seed: u32, rays: u32, faces: u32, origins: u32, aim: u32, room: u32 }
+struct Suspect { origin: u32, count: u32, is_hit: u32, x: f32, y: f32, z: f32 }
+struct Counters { lost: atomic<u32>, even: atomic<u32> }
+
+@group(0) @binding(0) var scene: acceleration_structure;
+@group(0) @binding(1) var<storage, read> task: Task;
+@group(0) @binding(2) var<storage, read> origins: array<f32>;
+@group(0) @binding(3) var<storage, read> corners: array<f32>;
+@group(0) @binding(4) var<storage, read_write> counters: Counters;
+@group(0) @binding(5) var<storage, read_write> suspects: array<Suspect>;
+
+const AT_VERTEX = 0u;
+const AT_EDGE = 1u;
+
+fn unit() -> f32 { return f32(draw() >> 8u) / 16777216.0; }
+
+fn corner(face: u32, which: u32) -> vec3f {
+    let first = 9u * face + 3u * (which % 3u);
+    return vec3f(corners[first], corners[first + 1u], corners[first + 2u]);
+}
+
+fn target_point() -> vec3f {
+    let face = draw() % task.faces;
+    let first = draw() % 3u;
+    let a = corner(face, first);
+    let b = corner(face, first + 1u);
+    let c = corner(face, first + 2u);
+    if task.aim == AT_VERTEX { return a; }
+    var s = unit();
+    if task.aim == AT_EDGE {
+        // A quarter of them at the middle, and a quarter near a vertex.
+        let kind = draw() % 4u;
+        if kind == 0u { s = 0.5; }
+        if kind == 1u { s = s * s * s * s * s * s; }
+        return a + s * (b - a);
+    }
+    var r = unit();
+    if s + r > 1.0 { s = 1.0 - s; r = 1.0 - r; }
+    return a + s * (b - a) + r * (c - a);
+}
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= task.rays { return; }
+    state = mixed(mixed(id.x) ^ task.seed);
+    let from_point = draw() % task.origins;
+    let origin = vec3f(origins[3u * from_point], origins[3u * from_point + 1u], origins[3u * from_point + 2u]);
+    let direction = target_point() - origin;
+    if all(direction == vec3f(0.0)) { return; }
+
+    var nearest: ray_query;
+    rayQueryInitialize(&nearest, scene, RayDesc(FORCE_OPAQUE, 0xffu, 0.0, FAR, origin, direction));
+    while rayQueryProceed(&nearest) {}
+    let is_hit = rayQueryGetCommittedIntersection(&nearest).kind != RAY_QUERY_INTERSECTION_NONE;
+
+    var all_hits: ray_query;
+    var count = 0u;
+    rayQueryInitialize(&all_hits, scene, RayDesc(FORCE_NO_OPAQUE, 0xffu, 0.0, FAR, origin, direction));
+    while rayQueryProceed(&all_hits) {
+        let kind = rayQueryGetCandidateIntersection(&all_hits).kind;
+        if kind == RAY_QUERY_INTERSECTION_TRIANGLE { count += 1u; }
+    }
+
+    // The first half of the room is for lost rays, the second for those with an even count.
+    let suspect = Suspect(from_point, count, u32(is_hit), direction.x, direction.y, direction.z);
+    if !is_hit {
+        let place = atomicAdd(&counters.lost, 1u);
+        if place < task.room { suspects[place] = suspect; }
+    } else if count % 2u == 0u {
+        let place = atomicAdd(&counters.even, 1u);
+        if place < task.room { suspects[task.room + place] = suspect; }
+    }
+}

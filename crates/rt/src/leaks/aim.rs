@@ -1,0 +1,163 @@
+//! Rays that a device makes, traces and counts, and the exact decision about those that it loses.
+
+use crate::device::{Device, Shader};
+use crate::failure::Failure;
+use crate::structure::{Build, Part, build};
+use crate::world::World;
+use bytemuck::{Pod, Zeroable};
+use hairline_scene::Ray;
+use serde::Serialize;
+
+/// Where rays are aimed.
+#[derive(Clone, Copy)]
+pub enum Aim {
+    Vertex,
+    Edge,
+    Face,
+}
+
+impl Aim {
+    pub const ALL: [Aim; 3] = [Aim::Vertex, Aim::Edge, Aim::Face];
+}
+
+/// Counts of rays that were aimed alike.
+#[derive(Clone, Copy, Default, Serialize)]
+pub struct Aimed {
+    pub rays: u64,
+    /// Rays whose nearest hit the device does not find.
+    pub lost: u64,
+    /// How many of the lost ones were decided exactly: the first ones.
+    pub decided: u64,
+    /// How many of these meet the mesh: all, unless this program is wrong.
+    pub must_hit: u64,
+    /// Rays with a nearest hit that meet an even number of triangles by the device.
+    pub even: u64,
+    /// How many of those were decided exactly.
+    pub even_decided: u64,
+    /// How many of these cross the mesh only, so that the number has to be odd.
+    pub must_be_odd: u64,
+}
+
+/// The task of a run, as the shader reads it.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Task {
+    seed: u32,
+    rays: u32,
+    faces: u32,
+    origins: u32,
+    aim: u32,
+    room: u32,
+}
+
+/// A ray that the device loses, or hits an even number of times.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Suspect {
+    origin: u32,
+    count: u32,
+    is_hit: u32,
+    direction: [f32; 3],
+}
+
+/// How many suspects of a dispatch are decided: so many lost ones, and so many with an even count.
+const ROOM: usize = 1024;
+
+/// The most rays of a dispatch, so that no driver takes it for a hang.
+const MOST_RAYS: u64 = 1 << 22;
+
+/// Traces aimed rays on a device.
+pub struct Aimer<'a> {
+    device: &'a Device,
+    shader: Shader,
+    rays: u64,
+    seed: u32,
+}
+
+impl<'a> Aimer<'a> {
+    pub fn new(device: &'a Device, rays: u64, seed: u32) -> Aimer<'a> {
+        let shader = device.shader(concat!(
+            include_str!("../common.wgsl"),
+            include_str!("../leaks.wgsl")
+        ));
+        Aimer {
+            device,
+            shader,
+            rays,
+            seed,
+        }
+    }
+
+    /// Counts rays at a mesh whose triangles the device has in some parts.
+    pub fn count(
+        &self,
+        world: &World,
+        parts: &[Part],
+        how: Build,
+        aim: Aim,
+    ) -> Result<Aimed, Failure> {
+        let device = self.device;
+        let mut encoder = device.gpu.create_command_encoder(&Default::default());
+        let structures = build(device, &mut encoder, &[parts.to_vec()], how)?;
+        device.finish(encoder, [])?;
+        let origins = device.storage(&world.origins);
+        let corners = device.storage(&world.triangles);
+        let most = MOST_RAYS.min(device.most_invocations() as u64);
+        let mut counted = Aimed::default();
+        for run in 0..self.rays.div_ceil(most) {
+            let rays = most.min(self.rays - counted.rays);
+            let task = Task {
+                seed: self.seed.wrapping_mul(0x9e37_79b9) ^ run as u32,
+                rays: rays as u32,
+                faces: world.triangles.len() as u32,
+                origins: world.origins.len() as u32,
+                aim: aim as u32,
+                room: ROOM as u32,
+            };
+            let task = device.storage(&[task]);
+            let counters = device.zeros::<u32>(2);
+            let suspects = device.zeros::<Suspect>(2 * ROOM);
+            let bound = [
+                structures[0].tlas.as_binding(),
+                task.as_entire_binding(),
+                origins.as_entire_binding(),
+                corners.as_entire_binding(),
+                counters.as_entire_binding(),
+                suspects.as_entire_binding(),
+            ];
+            let mut encoder = device.gpu.create_command_encoder(&Default::default());
+            device.dispatch(&mut encoder, &self.shader, &bound, rays as u32);
+            let [counters, suspects] = device.finish(encoder, [&counters, &suspects])?;
+            let counters: Vec<u32> = bytemuck::pod_collect_to_vec(&counters);
+            let suspects: Vec<Suspect> = bytemuck::pod_collect_to_vec(&suspects);
+            counted.rays += rays;
+            counted.lost += u64::from(counters[0]);
+            counted.even += u64::from(counters[1]);
+            for (suspects, count) in suspects.chunks(ROOM).zip(counters) {
+                for suspect in &suspects[..ROOM.min(count as usize)] {
+                    counted.decide(world, suspect);
+                }
+            }
+        }
+        Ok(counted)
+    }
+}
+
+impl Aimed {
+    fn decide(&mut self, world: &World, suspect: &Suspect) {
+        let ray = Ray::new(world.origins[suspect.origin as usize], suspect.direction);
+        if suspect.is_hit == 0 {
+            self.decided += 1;
+            // A ray that means nothing is none that was made here.
+            let hit = world.scene.nearest(&ray).ok().flatten();
+            self.must_hit += u64::from(hit.is_some());
+            return;
+        }
+        self.even_decided += 1;
+        let passages = world.scene.passages(&ray).unwrap_or_default();
+        let crosses_only = passages
+            .iter()
+            .all(|passage| passage.crosses() == Ok(true) && !passage.is_segment);
+        self.must_be_odd += u64::from(crosses_only && passages.len() % 2 == 1);
+    }
+}

@@ -1,0 +1,193 @@
+//! The screen of `leaks`.
+
+use super::aim::Aimed;
+use hairline_record::group_digits;
+use serde::Serialize;
+use std::fmt;
+
+/// The counts of a mesh on a device.
+#[derive(Serialize)]
+pub struct Leaks {
+    pub device: String,
+    pub mesh: String,
+    pub faces: u64,
+    /// Rays of each count.
+    pub rays: u64,
+    pub seed: u32,
+    pub rows: Vec<Row>,
+    pub scaled: Vec<Scaled>,
+}
+
+/// Counts of one way to build the mesh.
+#[derive(Serialize)]
+pub struct Row {
+    name: String,
+    /// At vertices, at edges, into faces.
+    aimed: Vec<Aimed>,
+}
+
+/// Counts of rays at vertices of the mesh in some size.
+#[derive(Serialize)]
+pub struct Scaled {
+    pub exponent: i32,
+    pub counted: Aimed,
+}
+
+/// How many of a size's rays are lost.
+#[derive(Clone, Copy, PartialEq)]
+enum Share {
+    Nothing,
+    /// At most twice as many as in the size that the file has, and a few.
+    AsUsual,
+    More,
+    All,
+}
+
+impl Row {
+    pub fn new(name: &str, aimed: Vec<Aimed>) -> Row {
+        Row {
+            name: name.to_owned(),
+            aimed,
+        }
+    }
+}
+
+impl Scaled {
+    /// Beside the count in the size that the file has.
+    fn share(&self, usual: u64) -> Share {
+        let Aimed { lost, rays, .. } = self.counted;
+        match lost {
+            0 => Share::Nothing,
+            lost if lost == rays => Share::All,
+            lost if lost <= 2 * usual + 10 => Share::AsUsual,
+            _ => Share::More,
+        }
+    }
+}
+
+impl Leaks {
+    /// True if a ray is lost that must hit.
+    pub fn any_lost(&self) -> bool {
+        self.rows
+            .iter()
+            .flat_map(|row| &row.aimed)
+            .any(|aimed| aimed.must_hit > 0)
+    }
+}
+
+impl fmt::Display for Leaks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.device)?;
+        writeln!(
+            f,
+            "{}: {} faces, {} rays of each count, each from a point inside: it has to meet the mesh",
+            self.mesh,
+            group_digits(self.faces),
+            group_digits(self.rays)
+        )?;
+        writeln!(f)?;
+        writeln!(
+            f,
+            "{:34} {:^19} {:^19} {:^19}",
+            "", "at vertices", "at edges", "into faces"
+        )?;
+        writeln!(f, "{:34} {}", "", "     lost      even".repeat(3))?;
+        for row in &self.rows {
+            write!(f, "{:34}", row.name)?;
+            for aimed in &row.aimed {
+                let [lost, even] = [aimed.lost, aimed.even].map(|it| share(it, aimed.rays));
+                write!(f, " {lost:>9} {even:>9}")?;
+            }
+            writeln!(f)?;
+        }
+        writeln!(f)?;
+        self.fmt_decided(f)?;
+        self.fmt_scaled(f)
+    }
+}
+
+impl Leaks {
+    fn fmt_decided(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sum = |number: fn(&Aimed) -> u64| -> u64 {
+            let all = self.rows.iter().flat_map(|row| &row.aimed);
+            all.map(number).sum()
+        };
+        let [decided, must_hit] = [sum(|it| it.decided), sum(|it| it.must_hit)];
+        match decided {
+            0 => writeln!(f, "No ray is lost.")?,
+            _ => writeln!(
+                f,
+                "Lost: {} of them were decided again, exactly; {} of these must hit.",
+                group_digits(decided),
+                group_digits(must_hit)
+            )?,
+        }
+        if must_hit < decided {
+            writeln!(
+                f,
+                "      {} need not hit: hairline-rt is wrong here, please report it.",
+                decided - must_hit
+            )?;
+        }
+        let [decided, must_be_odd] = [sum(|it| it.even_decided), sum(|it| it.must_be_odd)];
+        if decided > 0 {
+            writeln!(
+                f,
+                "Even: the ray meets an even number of triangles by the device. {} of them were decided again, exactly; \
+                 {} of these\n      cross the surface and never touch it: a triangle counts twice, or not at all.",
+                group_digits(decided),
+                group_digits(must_be_odd)
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The sizes, from one share to the next.
+    fn fmt_scaled(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(first) = self.scaled.first() else {
+            return Ok(());
+        };
+        writeln!(f)?;
+        writeln!(f, "Rays at vertices, the mesh scaled by")?;
+        let usual = self.scaled.iter().find(|it| it.exponent == 0);
+        let usual = usual.map_or(0, |it| it.counted.lost);
+        let [mut from, mut to] = [first; 2];
+        for next in self.scaled.iter().skip(1) {
+            if next.share(usual) != from.share(usual) {
+                self.fmt_sizes(f, from, to)?;
+                from = next;
+            }
+            to = next;
+        }
+        self.fmt_sizes(f, from, to)
+    }
+
+    fn fmt_sizes(&self, f: &mut fmt::Formatter<'_>, from: &Scaled, to: &Scaled) -> fmt::Result {
+        let within = from.exponent..=to.exponent;
+        let sizes = self
+            .scaled
+            .iter()
+            .filter(|it| within.contains(&it.exponent));
+        let lost: Vec<u64> = sizes.map(|it| it.counted.lost).collect();
+        let least = lost.iter().min().copied().unwrap_or_default();
+        let most = lost.iter().max().copied().unwrap_or_default();
+        let told = match [least, most].map(|lost| share(lost, self.rays)) {
+            _ if most == 0 => "none is lost".to_owned(),
+            _ if least == self.rays => "all are lost".to_owned(),
+            [least, most] if least == most => format!("{most} are lost"),
+            [least, most] => format!("{least} to {most} are lost"),
+        };
+        match from.exponent == to.exponent {
+            true => writeln!(f, "  1e{}: {told}", from.exponent),
+            false => writeln!(f, "  1e{} to 1e{}: {told}", from.exponent, to.exponent),
+        }
+    }
+}
+
+/// A count as a share, to three digits behind the point.
+fn share(count: u64, of: u64) -> String {
+    match count {
+        0 => "0".to_owned(),
+        _ => format!("{:.3} %", 100.0 * count as f64 / of as f64),
+    }
+}

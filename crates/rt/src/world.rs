@@ -1,0 +1,207 @@
+//! A closed mesh in some size, with its exact scene and points inside.
+
+use crate::structure::{Part, Triangle};
+use hairline_core::case::Draw;
+use hairline_files::mesh::Mesh;
+use hairline_scene::{Location, Scene};
+use std::collections::BTreeMap;
+
+/// How many points inside rays start at.
+const ORIGINS: usize = 1024;
+
+/// How many points are tried to find them.
+const TRIES: u64 = 200_000;
+
+/// Vertices on a grid are multiples of about this share of the mesh's size: 2^-18, so that differences of two are exact in f32.
+const GRID: f64 = 1.0 / 262_144.0;
+
+/// A closed mesh.
+pub struct World {
+    pub triangles: Vec<Triangle>,
+    /// Its exact scene.
+    pub scene: Scene<f32>,
+    /// Points that are exactly inside.
+    pub origins: Vec<[f32; 3]>,
+    vertices: Vec<[f32; 3]>,
+    faces: Vec<[u32; 3]>,
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl World {
+    /// A mesh, scaled. An error if it is not closed, or if no points inside are found.
+    pub fn new(mesh: &Mesh, scale: f64) -> Result<World, String> {
+        let scaled = |vertex: &[f64; 3]| vertex.map(|x| (x * scale) as f32);
+        let vertices = match scale == 1.0 {
+            true => mesh.positions_f32.clone(),
+            false => mesh.positions_f64.iter().map(scaled).collect(),
+        };
+        World::of(vertices, mesh.triangles.clone())
+    }
+
+    fn of(vertices: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> Result<World, String> {
+        let scene = Scene::new(&vertices, &faces).map_err(|error| error.to_string())?;
+        if !scene.not_finite().is_empty() {
+            return Err("a coordinate is beyond the range of f32".to_owned());
+        }
+        let corner = |vertex: u32| vertices[vertex as usize];
+        let triangles: Vec<Triangle> = faces.iter().map(|face| face.map(corner)).collect();
+        let [mut low, mut high] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for vertex in triangles.iter().flatten() {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(f64::from(vertex[axis]));
+                high[axis] = high[axis].max(f64::from(vertex[axis]));
+            }
+        }
+        let mut world = World {
+            triangles,
+            scene,
+            origins: Vec::new(),
+            vertices,
+            faces,
+            low,
+            high,
+        };
+        world.find_origins()?;
+        Ok(world)
+    }
+
+    /// Finds points in the box of the mesh that are inside.
+    fn find_origins(&mut self) -> Result<(), String> {
+        for index in 0..TRIES {
+            let draw = &mut Draw::new("points-inside", 1, index);
+            let point = [0, 1, 2].map(|axis| {
+                let share: f64 = draw.unit();
+                (self.low[axis] + share * (self.high[axis] - self.low[axis])) as f32
+            });
+            match self.scene.locate(point) {
+                Ok(Location::Off(winding)) if !winding.is_zero() => self.origins.push(point),
+                Ok(Location::NotDefined(_)) => {
+                    return Err("the surface is open, so rays may leave it".to_owned());
+                }
+                _ => {}
+            }
+            if self.origins.len() == ORIGINS {
+                break;
+            }
+        }
+        match self.origins.is_empty() {
+            true => Err(format!("none of {TRIES} points in its box is inside")),
+            false => Ok(()),
+        }
+    }
+
+    /// The mesh with its vertices on a grid, which moves them by less than one in 100,000 of its size.
+    pub fn on_a_grid(&self) -> Result<World, String> {
+        let step = self.step();
+        let on_grid =
+            |vertex: &[f32; 3]| vertex.map(|x| ((f64::from(x) / step).round() * step) as f32);
+        let vertices = self.vertices.iter().map(on_grid).collect();
+        World::of(vertices, self.faces.clone())
+    }
+
+    /// The grid's step, a power of two.
+    fn step(&self) -> f64 {
+        let ends = self.low.iter().chain(&self.high);
+        let size = ends.fold(0.0, |most: f64, x| most.max(x.abs()));
+        (size * GRID).log2().ceil().exp2()
+    }
+
+    /// The faces by the tile of their middle, each tile moved to its place by a translation: in exact arithmetic every vertex
+    /// comes back to where it was. The vertices have to be on the grid.
+    pub fn tiles(&self, a_side: u32) -> Vec<Part> {
+        let mut tiles: BTreeMap<[u32; 3], Vec<Triangle>> = BTreeMap::new();
+        for triangle in &self.triangles {
+            tiles
+                .entry(self.tile_of(triangle, a_side))
+                .or_default()
+                .push(*triangle);
+        }
+        let mut first_face = 0;
+        let mut parts = Vec::new();
+        for (tile, triangles) in tiles {
+            let translation = self.middle_of(tile, a_side);
+            let moved = |vertex: [f32; 3]| [0, 1, 2].map(|axis| vertex[axis] - translation[axis]);
+            let count = triangles.len() as u32;
+            parts.push(Part {
+                triangles: triangles
+                    .into_iter()
+                    .map(|triangle| triangle.map(moved))
+                    .collect(),
+                translation,
+                first_face,
+            });
+            first_face += count;
+        }
+        parts
+    }
+
+    fn tile_of(&self, triangle: &Triangle, a_side: u32) -> [u32; 3] {
+        [0, 1, 2].map(|axis| {
+            let sum: f64 = triangle.iter().map(|vertex| f64::from(vertex[axis])).sum();
+            let share = (sum / 3.0 - self.low[axis]) / (self.high[axis] - self.low[axis]);
+            // A flat box gives NaN, which becomes 0.
+            let place = (share * f64::from(a_side)) as u32;
+            place.min(a_side - 1)
+        })
+    }
+
+    /// The point of the grid that is nearest to the middle of a tile.
+    fn middle_of(&self, tile: [u32; 3], a_side: u32) -> [f32; 3] {
+        let step = self.step();
+        [0, 1, 2].map(|axis| {
+            let share = (f64::from(tile[axis]) + 0.5) / f64::from(a_side);
+            let middle = self.low[axis] + share * (self.high[axis] - self.low[axis]);
+            ((middle / step).round() * step) as f32
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn icosphere() -> Mesh {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../corpora/meshes/icosphere.obj"
+        );
+        crate::input::read_mesh(path).unwrap_or_else(|failure| panic!("{}", failure.message))
+    }
+
+    #[test]
+    fn tiles_come_back_to_where_they_were() {
+        let world = World::new(&icosphere(), 1.0).unwrap().on_a_grid().unwrap();
+        let sorted = |mut triangles: Vec<Triangle>| {
+            triangles.sort_by_key(|triangle| triangle.map(|vertex| vertex.map(f32::to_bits)));
+            triangles
+        };
+        let tiles = world.tiles(3);
+        assert!(20 < tiles.len());
+        let mut moved_back = Vec::new();
+        for tile in &tiles {
+            for triangle in &tile.triangles {
+                moved_back.push(triangle.map(|vertex| {
+                    [0, 1, 2].map(|axis| {
+                        // The sum of two floats, exactly.
+                        let exact = f64::from(vertex[axis]) + f64::from(tile.translation[axis]);
+                        assert_eq!(f64::from(exact as f32), exact);
+                        exact as f32
+                    })
+                }));
+            }
+        }
+        assert_eq!(sorted(moved_back), sorted(world.triangles.clone()));
+    }
+
+    #[test]
+    fn an_open_mesh_is_refused() {
+        let mut mesh = icosphere();
+        mesh.triangles.pop();
+        let refused = World::new(&mesh, 1.0).err();
+        assert_eq!(
+            refused.as_deref(),
+            Some("the surface is open, so rays may leave it")
+        );
+    }
+}
