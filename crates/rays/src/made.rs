@@ -17,7 +17,8 @@ impl<F: Scalar> MadeRays<F> {
         write: |rays, _, out| rays.write(out),
     }];
 
-    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+    /// Writes them as CSV.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "ox,oy,oz,dx,dy,dz")?;
         for ray in &self.0 {
             let numbers = [ray.origin, ray.direction].concat();

@@ -6,11 +6,12 @@ mod report;
 use crate::device::Device;
 use crate::failure::Failure;
 use crate::input::read_mesh;
-use crate::output::{print, write_json};
+use crate::output::{print, write_file, write_json};
 use crate::structure::{Build, Part};
 use crate::world::World;
 use aim::{Aim, Aimed, Aimer};
 use clap::ValueHint;
+use hairline_rays::MadeRays;
 use report::{Leaks, Row, Scaled};
 use std::process::ExitCode;
 
@@ -35,6 +36,9 @@ pub struct Arguments {
     /// The mesh in all sizes too: scaled by 1e-44 to 1e37
     #[arg(long)]
     scales: bool,
+    /// Writes lost rays of the mesh as it is into a file for `hairline rays MESH FILE`
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    lost: Option<String>,
     /// The counts as JSON, too
     #[arg(short, long, value_hint = ValueHint::FilePath)]
     output: Option<String>,
@@ -84,6 +88,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         scaled,
     };
     print(&leaks)?;
+    if let Some(path) = &arguments.lost {
+        let mut csv = Vec::new();
+        MadeRays(leaks.lost_rays())
+            .write(&mut csv)
+            .and_then(|()| write_file(path, &csv))
+            .map_err(|error| Failure::of_file(path, &error))?;
+    }
     if let Some(path) = &arguments.output {
         write_json(path, &leaks)?;
     }

@@ -14,11 +14,15 @@ pub fn print(text: &impl Display) -> Result<(), Failure> {
     }
 }
 
-/// Writes data as JSON into a file: beside it, and renamed.
+/// Writes data as JSON into a file.
 pub fn write_json(path: &str, data: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(data).expect("numbers and names");
+    let text = serde_json::to_string_pretty(data).expect("numbers and names") + "\n";
+    write_file(path, text.as_bytes()).map_err(|error| Failure::of_file(path, &error))
+}
+
+/// Writes a file: beside it, and renamed.
+pub fn write_file(path: &str, bytes: &[u8]) -> io::Result<()> {
     let beside = format!("{path}.part");
-    fs::write(&beside, text + "\n")
-        .and_then(|()| fs::rename(&beside, path))
-        .map_err(|error| Failure::of_file(path, &error))
+    fs::write(&beside, bytes)?;
+    fs::rename(&beside, path)
 }

@@ -21,7 +21,7 @@ impl Aim {
 }
 
 /// Counts of rays that were aimed alike.
-#[derive(Clone, Copy, Default, Serialize)]
+#[derive(Clone, Default, Serialize)]
 pub struct Aimed {
     pub rays: u64,
     /// Rays whose nearest hit the device does not find.
@@ -36,6 +36,9 @@ pub struct Aimed {
     pub even_decided: u64,
     /// How many of these cross the mesh only, so that the number has to be odd.
     pub must_be_odd: u64,
+    /// Lost rays that must hit.
+    #[serde(skip)]
+    pub lost_rays: Vec<Ray<f32>>,
 }
 
 /// The task of a run, as the shader reads it.
@@ -149,8 +152,10 @@ impl Aimed {
         if suspect.is_hit == 0 {
             self.decided += 1;
             // A ray that means nothing is none that was made here.
-            let hit = world.scene.nearest(&ray).ok().flatten();
-            self.must_hit += u64::from(hit.is_some());
+            if let Ok(Some(_)) = world.scene.nearest(&ray) {
+                self.must_hit += 1;
+                self.lost_rays.push(ray);
+            }
             return;
         }
         self.even_decided += 1;

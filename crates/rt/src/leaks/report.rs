@@ -2,6 +2,7 @@
 
 use super::aim::Aimed;
 use hairline_record::group_digits;
+use hairline_scene::Ray;
 use serde::Serialize;
 use std::fmt;
 
@@ -72,6 +73,12 @@ impl Leaks {
             .iter()
             .flat_map(|row| &row.aimed)
             .any(|aimed| aimed.must_hit > 0)
+    }
+
+    /// Lost rays of the mesh as it is, in one structure.
+    pub fn lost_rays(&self) -> Vec<Ray<f32>> {
+        let aimed = self.rows.iter().take(1).flat_map(|row| &row.aimed);
+        aimed.flat_map(|aimed| aimed.lost_rays.clone()).collect()
     }
 }
 
