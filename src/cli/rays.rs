@@ -188,6 +188,10 @@ impl RaysRun<'_> {
     }
 
     fn summary<F: RaysScalar>(&self, judgements: &Judgements<F>) -> Result<RaysResult, Failure> {
+        if let Some(message) = judgements.no_hits() {
+            let file = self.arguments.answered.answers.as_deref();
+            return Err(InputError::of(file.unwrap_or_default(), message).into());
+        }
         F::summary(judgements).map_err(|bad| self.bad(bad))
     }
 

@@ -82,6 +82,14 @@ fn the_scalar_and_the_numbering_of_a_program_are_found_out() {
         from_one.contains("The faces are numbered otherwise: with -1 most wrong ones are right."),
         "{from_one}"
     );
+    // All hits are numbered alike.
+    let all: String = (0..10).map(|ray| format!("{ray},1,1\n")).collect();
+    let all_from_one = judged(&all, &["--answered", "all"], 1);
+    assert!(
+        all_from_one
+            .contains("The faces are numbered otherwise: with -1 most wrong ones are right."),
+        "{all_from_one}"
+    );
     // Numbers that only f32 rounds: the ray starts an ulp of f64 beside the square.
     fs::write(folder.join("r.csv"), "1.0000000000000002,0.5,1,0,0,-1\n").unwrap();
     let in_f32 = judged("0,1\n", &[], 0);
@@ -196,6 +204,57 @@ fn other_answers_than_the_nearest_hit_are_judged_too() {
     refused(&of_points, 65, "a.csv:2: expected inside, outside or on");
     refused(&["--answers", "a.csv"], 2, "which rays?");
     refused(&["r.csv", "--known", "k.toml"], 2, "whose answers?");
+}
+
+#[test]
+fn a_face_that_does_not_exist_is_said_to_be_none() {
+    let folder = folder("rays-no-face");
+    let said = judged(&folder, "3,4.25\n1,4\n4,1\n", &[], 1);
+    for words in [
+        "1 answer names a face that the mesh does not have: faces are counted from 0 here",
+        "ray 2: ghost: no face is hit; answered face 4 at t = 1.0; the mesh has no face 4",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let all = judged(&folder, "0,3\n0,0\n1,4\n2,4\n", &["--answered", "all"], 1);
+    assert!(
+        all.contains("2 answers name a face that the mesh does not have"),
+        "{all}"
+    );
+}
+
+#[test]
+fn a_file_without_any_hit_is_an_error_where_rays_hit() {
+    let folder = folder("rays-no-hits");
+    let refused = |answers: &str, message: &str| {
+        fs::write(folder.join("a.csv"), answers).unwrap();
+        let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+        let (_, error) = ends(&folder, &[&words[..], &["--answered", "all"]].concat(), 65);
+        assert!(error.contains(message), "{answers:?}: {error}");
+    };
+    let nothing = "a.csv: there are no answers in it: expected ray,face,t, a line for each hit";
+    refused("", nothing);
+    refused("# mine\n", nothing);
+    // The second ray only touches an edge.
+    let no_hits =
+        "a.csv: there are no hits in it, and 1 of 3 rays hit the mesh: expected ray,face,t";
+    refused("ray,face,t\n", no_hits);
+    // Where all rays miss, names alone are right; and a file of nothing is none.
+    fs::write(folder.join("r.csv"), "5,5,5,1,0,0\n").unwrap();
+    judged(&folder, "ray,face,t\n", &["--answered", "all"], 0);
+    refused("", nothing);
+}
+
+#[test]
+fn a_distance_is_said_in_words_that_are_true_of_points_in_front_too() {
+    let folder = folder("rays-in-front");
+    fs::write(folder.join("a.csv"), "3,4\n1,5\n-1\n").unwrap();
+    let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+    let html = ends(&folder, &[&words[..], &["--format", "html"]].concat(), 1).0;
+    assert!(
+        html.contains("distance from the exact point, before or behind it, in longest edges"),
+        "{html}"
+    );
 }
 
 #[test]
@@ -395,6 +454,10 @@ fn the_face_that_a_ray_starts_at_is_a_self_hit_where_it_is_missed() {
     }
     let all = judged("0,0,1e-12\n0,2,1\n", &["--answered", "all"], 1);
     assert!(all.contains(" self-hit 1 "), "{all}");
+    // A face that is met later too: its point at the start is not named twice.
+    fs::write(folder.join("r.csv"), "0.1,0.05,1e-4,0.9,0,-1e-3\n").unwrap();
+    let later = judged("0,0,0\n0,0,0.1\n", &["--answered", "all"], 1);
+    assert!(later.contains(" self-hit 1 "), "{later}");
     // Where nothing else is, too; and from a hair in front of it the wall is right.
     fs::write(folder.join("r.csv"), "0.75,0.25,1e-9,0,0,1\n").unwrap();
     assert!(judged("0,1e-12\n", &[], 1).contains(" self-hit 1 "));

@@ -83,11 +83,7 @@ impl Answers {
     /// An answer as a cell of a table: faces, a number or a word.
     pub(crate) fn in_short(&self, index: usize) -> String {
         match self {
-            Answers::Nearest(all) => all[index].face.map_or(String::new(), |it| it.to_string()),
-            Answers::All(all) => {
-                let faces: Vec<u32> = all[index].iter().map(|it| it.face).collect();
-                joined(&faces)
-            }
+            Answers::Nearest(_) | Answers::All(_) => joined(&self.faces(index)),
             Answers::Count(all) => all[index].to_string(),
             Answers::Any(_) | Answers::Inside(_) => self.in_words(index),
         }
@@ -117,6 +113,21 @@ impl Answers {
             Answers::Count(all) => Answers::Count(all.clone()),
             Answers::Inside(all) => Answers::Inside(all.clone()),
         }
+    }
+
+    /// The faces that an answer names.
+    pub(crate) fn faces(&self, index: usize) -> Vec<u32> {
+        match self {
+            Answers::Nearest(all) => all[index].face.into_iter().collect(),
+            Answers::All(all) => all[index].iter().map(|hit| hit.face).collect(),
+            Answers::Any(_) | Answers::Count(_) | Answers::Inside(_) => Vec::new(),
+        }
+    }
+
+    /// A face that an answer names and that a mesh of so many faces does not have.
+    pub(crate) fn beyond(&self, index: usize, faces: usize) -> Option<u32> {
+        let named = self.faces(index);
+        named.into_iter().find(|face| faces <= *face as usize)
     }
 
     /// The t of a nearest hit, if the program gave one.

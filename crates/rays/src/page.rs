@@ -25,6 +25,7 @@ impl Paged for RaysResult {
         let mut blocks: Vec<Block> = self.blame().map(Block::text).into_iter().collect();
         blocks.extend(self.wrong_rays.sentence().map(Block::text));
         blocks.extend(self.ends().map(Block::text));
+        blocks.extend(self.beyond().map(Block::text));
         blocks.extend(self.reading().map(Block::text));
         blocks.push(Block::Table(self.table()));
         let shown = self.counts.iter().filter(|it| 0 < it.count);
@@ -155,6 +156,18 @@ impl RaysResult {
         ))
     }
 
+    /// Answers with faces that do not exist, if not all faces are numbered otherwise.
+    fn beyond(&self) -> Option<String> {
+        let name = match (self.beyond_the_mesh, self.shift) {
+            (0, _) | (_, Some(_)) => return None,
+            (1, None) => "1 answer names".to_owned(),
+            (count, None) => format!("{} answers name", group_digits(count)),
+        };
+        Some(format!(
+            "{name} a face that the mesh does not have: faces are counted from 0 here, so the number of all faces is beyond the last."
+        ))
+    }
+
     /// How the numbers were read, if not as they are written.
     fn reading(&self) -> Option<String> {
         let as_written = self.right_as_written?;
@@ -182,8 +195,10 @@ impl RaysResult {
 
     fn table(&self) -> Table {
         let about = match self.kind {
-            AnswerKind::Inside => "how far from the surface, in longest edges of the face there",
-            _ => "how far behind the exact point, in longest edges of the nearest face",
+            AnswerKind::Inside => "distance from the surface, in longest edges of the face there",
+            _ => {
+                "distance from the exact point, before or behind it, in longest edges of the nearest face"
+            }
         };
         let shown = || self.counts.iter().filter(|it| 0 < it.count);
         let has_distances = shown().any(|it| it.most_off.is_some());

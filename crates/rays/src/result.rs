@@ -40,6 +40,9 @@ pub struct RaysResult {
     /// The number that added to the faces of wrong answers makes most of them right, if one does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shift: Option<i64>,
+    /// The answers that name a face that the mesh does not have: one more than its last one. A larger number is an error in the file.
+    #[serde(default)]
+    pub beyond_the_mesh: u64,
     /// The hits that are lost, and who loses them too.
     pub lost: LostHits,
     /// How the rays of wrong answers meet the mesh.

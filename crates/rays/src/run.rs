@@ -5,7 +5,7 @@ use crate::files::hex;
 use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
 use crate::plain::PlainProgram;
-use crate::record::number_of;
+use crate::record::{group_digits, number_of};
 use hairline_scene::{Judged, Judgement, Scene};
 use hmac_sha256::Hash;
 
@@ -39,6 +39,23 @@ pub struct Judgements<'a, F: Scalar> {
     pub right_as_written: Option<u64>,
     /// The questions as they were given: their number, and a digest.
     pub(crate) cases: String,
+}
+
+impl<F: Scalar> Judgements<'_, F> {
+    /// A complaint if a program named no hit of any ray, and some rays hit the mesh: then the file is likely cut off.
+    pub fn no_hits(&self) -> Option<String> {
+        let Answers::All(all) = &self.run.answers else {
+            return None;
+        };
+        let is_said_wrongly = all.iter().all(Vec::is_empty) && 0 < self.tally.wrong;
+        is_said_wrongly.then(|| {
+            format!(
+                "there are no hits in it, and {} of {} hit the mesh: expected ray,face,t, a line for each hit",
+                group_digits(self.tally.wrong),
+                number_of(all.len() as u64, "ray", "rays")
+            )
+        })
+    }
 }
 
 /// How many answers are right.

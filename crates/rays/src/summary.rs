@@ -38,7 +38,8 @@ where
             .map(|kind| counted_as(kind, judged))
             .collect(),
         right_as_written: judgements.right_as_written,
-        shift: shift(&run.answers, judged),
+        shift: shift(run, judged)?,
+        beyond_the_mesh: beyond_the_mesh(run),
         lost,
         wrong_rays: wrong_rays(run, judged)?,
         outside_interval: outside_interval(run, judged),
@@ -251,30 +252,59 @@ fn counted_as(judgement: Judgement, judged: &[Judged]) -> JudgementCount {
 
 /// The shift of face numbers with which most faces are right, and more than without: of a program that counts from 1, for
 /// example.
-fn shift(answers: &Answers, judged: &[Judged]) -> Option<i64> {
-    let Answers::Nearest(answers) = answers else {
-        return None;
-    };
-    let mut named = Vec::new();
-    for (judged, answer) in judged.iter().zip(answers) {
-        if let (Some(hit), Some(face)) = (&judged.hit, answer.face) {
-            named.push((&hit.faces, face));
-        }
-    }
+fn shift<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<Option<i64>, BadRay> {
+    let all = named_beside_exact(run, judged)?;
     let right = |shift: i64| {
-        let is_right = |face: u32, nearest: &[u32]| {
+        let is_right = |face: u32, exact: &[u32]| {
             let shifted = u32::try_from(i64::from(face) + shift);
-            shifted.is_ok_and(|face| nearest.contains(&face))
+            shifted.is_ok_and(|face| exact.contains(&face))
         };
-        let right = named
-            .iter()
-            .filter(|(nearest, face)| is_right(*face, nearest));
-        right.count()
+        let of_ray = |(named, exact): &(Vec<u32>, Vec<u32>)| {
+            let right = named.iter().filter(|face| is_right(**face, exact));
+            right.count()
+        };
+        all.iter().map(of_ray).sum::<usize>()
     };
+    let named: usize = all.iter().map(|(named, _)| named.len()).sum();
     let as_written = right(0);
     let is_most = |shift: &i64| {
         let shifted = right(*shift);
-        as_written + FEWEST <= shifted && named.len() < 2 * shifted
+        as_written + FEWEST <= shifted && named < 2 * shifted
     };
-    [-1, 1].into_iter().find(is_most)
+    Ok([-1, 1].into_iter().find(is_most))
+}
+
+/// The faces that a program named, and the exact ones, for each ray that has both: of the nearest hit, or of all hits.
+fn named_beside_exact<F: Scalar>(
+    run: &JudgedRun<F>,
+    judged: &[Judged],
+) -> Result<Vec<(Vec<u32>, Vec<u32>)>, BadRay> {
+    let is_any_wrong = || judged.iter().any(|it| it.judgement.is_wrong());
+    let exact: Vec<Vec<u32>> = match run.answers.kind() {
+        AnswerKind::Nearest => {
+            let hits = judged.iter().map(|it| it.hit.as_ref());
+            hits.map(|hit| hit.map_or(Vec::new(), |hit| hit.faces.clone()))
+                .collect()
+        }
+        AnswerKind::All if is_any_wrong() => {
+            let rays = run.asked.rays();
+            of_all(rays.len(), |i| {
+                let hits = run.scene.hits(&rays[i])?;
+                Ok(hits.into_iter().flat_map(|hit| hit.faces).collect())
+            })?
+        }
+        _ => Vec::new(),
+    };
+    let all = exact.into_iter().enumerate();
+    let both = all.map(|(index, exact)| (run.answers.faces(index), exact));
+    Ok(both
+        .filter(|(named, exact)| !named.is_empty() && !exact.is_empty())
+        .collect())
+}
+
+/// How many answers name a face that the mesh does not have.
+fn beyond_the_mesh<F: Scalar>(run: &JudgedRun<F>) -> u64 {
+    let faces = run.mesh.triangles.len();
+    let all = (0..run.asked.count()).filter(|i| run.answers.beyond(*i, faces).is_some());
+    all.count() as u64
 }

@@ -56,7 +56,10 @@ where
         Asked::Rays(rays) => {
             let ray = &rays[index];
             let truth = truth_of_ray(scene, ray, answers, judged)?;
-            let text = format!("ray {index}: {}", beside(&truth, answers, index, judged));
+            let words = beside(&truth, answers, index, judged);
+            let beyond = answers.beyond(index, run.mesh.triangles.len());
+            let beyond = beyond.map(|face| format!("; the mesh has no face {face}"));
+            let text = format!("ray {index}: {words}{}", beyond.unwrap_or_default());
             let hit = judged.hit.as_ref();
             let picture = picture::of_ray(scene, ray, hit, Some((answers, index)), &text)?;
             (text, picture)

@@ -114,7 +114,9 @@ impl<F: Float> Scene<F> {
         let Some(nearest) = self.nearest(ray)? else {
             let judgement = match answer.face {
                 None => Judgement::Right,
-                Some(face) => self.of_face_nearby(ray, face, answer.t, f64::INFINITY, None),
+                Some(face) => {
+                    self.of_face_nearby(ray, face, answer.t, f64::INFINITY, f64::INFINITY)
+                }
             };
             return Ok(Judged::new(judgement, None, None));
         };
@@ -125,6 +127,10 @@ impl<F: Float> Scene<F> {
             }
             Some(face) => match self.t(ray, face)? {
                 None => self.of_unmet(ray, &nearest, face, answer.t)?,
+                Some([first, _]) if self.is_self_hit(ray, face, answer.t, first) => {
+                    let t = answer.t.unwrap_or(first);
+                    (Judgement::SelfHit, self.behind(ray, &nearest, t)?)
+                }
                 Some([first, _]) => {
                     let behind = self.behind(ray, &nearest, first)?;
                     // Near an edge the ray may meet both faces, one just behind the other.
@@ -155,11 +161,13 @@ impl<F: Float> Scene<F> {
         let behind = self.behind(ray, nearest, t)?;
         // Without a number t is NaN, infinite, or as far as that.
         let is_visible = behind.is_none_or(|behind| VISIBLE < behind.abs());
+        let face = answer.face.unwrap_or(nearest.faces[0]);
         Ok(match is_visible {
             false => (right, behind),
             // A ray in the face's plane has other points of the face.
-            true if self.is_at(ray, answer.face.unwrap_or(nearest.faces[0]), Some(t))? => {
-                (Judgement::Neighbour, behind)
+            true if self.is_at(ray, face, Some(t))? => (Judgement::Neighbour, behind),
+            true if self.is_self_hit(ray, face, Some(t), nearest.t.lower) => {
+                (Judgement::SelfHit, behind)
             }
             true => (Judgement::WrongT, behind),
         })
@@ -176,27 +184,34 @@ impl<F: Float> Scene<F> {
         let behind = t.map_or(Ok(None), |t| self.behind(ray, nearest, t))?;
         // Not farther behind the nearest face than anybody sees.
         let latest = nearest.t.upper + VISIBLE / self.edges_to_a_t(ray, nearest);
-        let judgement = self.of_face_nearby(ray, face, t, latest, Some(nearest));
+        let judgement = self.of_face_nearby(ray, face, t, latest, nearest.t.lower);
         Ok((judgement, behind))
     }
 
-    /// Judges a face that the ray does not meet, and that it may pass by a hair at `latest`.
+    /// Judges a point of a face that the ray does not meet there, and that it may pass by a hair at `latest`; an exact hit is at
+    /// `first`.
     fn of_face_nearby(
         &self,
         ray: &Ray<F>,
         face: u32,
         t: Option<f64>,
         latest: f64,
-        nearest: Option<&Nearest>,
+        first: f64,
     ) -> Judgement {
         let Some(t) = self.missed_by_a_hair(ray, face, t, latest) else {
             return Judgement::Ghost;
         };
         let hair = self.hair(ray, face);
-        match nearest.is_none_or(|nearest| hair < nearest.t.lower - t) {
+        match hair < first - t {
             true => self.of_hit_before(ray, face, t),
             false => Judgement::Neighbour,
         }
+    }
+
+    /// True if a program named a face at the ray's start, which the ray passes there by a hair and meets later, first at `first`.
+    fn is_self_hit(&self, ray: &Ray<F>, face: u32, t: Option<f64>, first: f64) -> bool {
+        let judgement = |t| self.of_face_nearby(ray, face, Some(t), f64::INFINITY, first);
+        t.is_some_and(|t| judgement(t) == Judgement::SelfHit)
     }
 
     /// Judges a face that the ray passes by a hair at a t, where no exact hit is: at the ray's start everybody sees it.

@@ -173,13 +173,27 @@ fn one_word(line: &str, field: &str) -> Result<String, String> {
 
 /// All hits: a line each, with the ray's number from 0, the face and its t if there is one; those of a ray in the program's order.
 fn all(text: Text, asked: usize, faces: usize) -> Result<Vec<Vec<NamedHit>>, InputError> {
+    let name = text.name;
+    let has_head = Cell::new(false);
+    let is_only_a_head = |first: &str| {
+        has_head.set(is_head(first));
+        has_head.get()
+    };
     let mut answers = vec![Vec::new(); asked];
-    text.for_each_line(is_head, |line| {
+    let mut has_hits = false;
+    text.for_each_line(is_only_a_head, |line| {
         let hit = hit(line, asked, faces)?;
         answers[hit.ray].push(hit.named);
+        has_hits = true;
         Ok(())
     })?;
-    Ok(answers)
+    match has_hits || has_head.get() {
+        true => Ok(answers),
+        false => Err(InputError::of(
+            name,
+            "there are no answers in it: expected ray,face,t, a line for each hit; if no ray hits, a first line of these names alone",
+        )),
+    }
 }
 
 /// A hit with its ray.

@@ -20,6 +20,8 @@ pub struct NamedHit {
 enum Place {
     /// The ray meets the face, in this passage.
     Met(usize),
+    /// The ray meets the face, in this passage, and the face is named where the ray starts.
+    AtStart(usize),
     /// The ray misses the face by a hair, near this passage.
     ByAHair(usize),
     /// The ray misses the face by a hair, near no passage.
@@ -49,12 +51,23 @@ impl<F: Float> Scene<F> {
         let mut there = vec![NamedThere::default(); passages.len()];
         let mut kinds = BTreeSet::new();
         let mut last = 0;
+        let mut faces = Vec::new();
         for hit in named {
             let exact = hits.iter().find(|it| it.faces.contains(&hit.face));
-            let passage = match self.place_of_hit(ray, &passages, exact, hit) {
+            let place = self.place_of_hit(ray, &passages, exact, hit);
+            // A face that is named at its exact t too is not named twice there.
+            if !matches!(place, Place::AtStart(_)) {
+                faces.push(hit.face);
+            }
+            let passage = match place {
                 Place::Met(i) => {
                     there[i].met += 1;
                     Some(i)
+                }
+                Place::AtStart(i) => {
+                    kinds.insert(Judgement::SelfHit);
+                    there[i].met += 1;
+                    None
                 }
                 Place::ByAHair(i) => {
                     kinds.insert(Judgement::Neighbour);
@@ -82,8 +95,8 @@ impl<F: Float> Scene<F> {
                 kinds.insert(Judgement::WrongT);
             }
         }
-        let faces: BTreeSet<u32> = named.iter().map(|hit| hit.face).collect();
-        if faces.len() < named.len() {
+        let different: BTreeSet<u32> = faces.iter().copied().collect();
+        if different.len() < faces.len() {
             kinds.insert(Judgement::Twice);
         }
         let met: BTreeSet<u32> = hits.iter().flat_map(|hit| hit.faces.clone()).collect();
@@ -116,8 +129,11 @@ impl<F: Float> Scene<F> {
     ) -> Place {
         // A passage may reach beyond the ray's interval, and have faces there.
         let place = passages.iter().position(|it| it.faces.contains(&hit.face));
-        if let Some(place) = place.filter(|_| exact.is_some()) {
-            return Place::Met(place);
+        if let Some((place, exact)) = place.zip(exact) {
+            return match self.is_self_hit(ray, hit.face, hit.t, exact.from.lower) {
+                true => Place::AtStart(place),
+                false => Place::Met(place),
+            };
         }
         let Some(t) = self.missed_by_a_hair(ray, hit.face, hit.t, f64::INFINITY) else {
             return Place::Alone(Judgement::Ghost);

@@ -327,3 +327,51 @@ fn exact_answers_are_right_in_any_scene_and_one_that_is_left_out_is_lost() {
     }
     assert!(400 < lost && 500 < unseen, "{lost} {unseen}");
 }
+
+/// Two floors of size 1, one just below the other; a ray that starts a hair above the upper one and meets both far away.
+fn over_floors() -> (Scene<f64>, Ray<f64>) {
+    let floor = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+    let vertices = [floor(0.0), floor(-4e-4)].concat();
+    let scene = Scene::new(&vertices, &[[0, 1, 2], [3, 4, 5]]).unwrap();
+    (scene, Ray::new([0.1, 0.1, 4e-4], [1.0, 0.0, -4e-3]))
+}
+
+#[test]
+fn a_face_named_at_the_start_and_met_later_is_a_self_hit() {
+    let (scene, ray) = over_floors();
+    let of_all = |hits: &[(u32, f64)]| {
+        let hits: Vec<NamedHit> = hits
+            .iter()
+            .map(|(face, t)| NamedHit {
+                face: *face,
+                t: Some(*t),
+            })
+            .collect();
+        scene.judge_hits(&ray, &hits).unwrap().judgement
+    };
+    let of_nearest = |face: u32, t: f64| {
+        let answer = Answer {
+            face: Some(face),
+            t: Some(t),
+        };
+        scene.judge(&ray, &answer).unwrap().judgement
+    };
+    assert_eq!(of_all(&[(0, 0.1), (1, 0.2)]), Judgement::Right);
+    for hits in [
+        &[(0, 0.0), (0, 0.1), (1, 0.2)][..],
+        &[(1, 0.0), (0, 0.1), (1, 0.2)],
+        &[(0, 0.0), (1, 0.2)],
+    ] {
+        assert_eq!(of_all(hits), Judgement::SelfHit, "{hits:?}");
+    }
+    // At the exact t it is named twice; away from the start its t is wrong.
+    let twice = [(0, 0.1), (0, 0.1), (1, 0.2)];
+    assert_eq!(of_all(&twice), Judgement::Twice);
+    assert_eq!(of_all(&[(0, 0.05), (1, 0.2)]), Judgement::WrongT);
+    assert_eq!(of_nearest(0, 0.1), Judgement::Right);
+    assert_eq!(of_nearest(0, 0.05), Judgement::WrongT);
+    assert_eq!(of_nearest(1, 0.2), Judgement::Farther);
+    for face in [0, 1] {
+        assert_eq!(of_nearest(face, 0.0), Judgement::SelfHit);
+    }
+}
