@@ -2,6 +2,7 @@
 
 mod arguments;
 mod program;
+mod readings;
 
 use super::before::set_threads;
 use super::exit::{Failure, Status};
@@ -17,8 +18,8 @@ use crate::report::{Format, write_junit};
 pub use arguments::RaysArguments;
 use arguments::{AnswerArguments, kinds};
 use hairline_rays::{
-    AllHits, AnswerKind, Answers, Asked, BadRay, FoundHits, JudgedRun, Judgements, LocatedPoints,
-    MadeRays, PlainProgram, RaysResult, RaysScalar, Text, answers, ray_of_words,
+    AllHits, AnswerKind, Answers, Asked, BadRay, FoundHits, GivenSteps, JudgedRun, Judgements,
+    LocatedPoints, MadeRays, PlainProgram, RaysResult, RaysScalar, Text, answers, ray_of_words,
 };
 use hairline_scene::{Judgement, NoTargets, Ray, Scene};
 use std::time::Instant;
@@ -64,6 +65,7 @@ pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
     let run = RaysRun {
         arguments,
         mesh: &mesh,
+        given: None,
         threads,
         tells_each: arguments.output.writes("csv"),
     };
@@ -77,15 +79,18 @@ pub fn run(arguments: &RaysArguments) -> Result<Status, Failure> {
 }
 
 /// A run of the command.
+#[derive(Clone, Copy)]
 struct RaysRun<'a> {
     arguments: &'a RaysArguments,
     mesh: &'a Mesh,
+    /// The steps that made the mesh, if it is not the one that was read, and the scalar in which they are computed.
+    given: Option<(&'a GivenSteps, ScalarName)>,
     threads: usize,
     /// True if a line for each answer is written.
     tells_each: bool,
 }
 
-impl RaysRun<'_> {
+impl<'a> RaysRun<'a> {
     /// Answers the questions, or makes rays.
     fn answer<F: RaysScalar>(&self) -> Result<Status, Failure> {
         let RaysArguments { output, .. } = self.arguments;
@@ -157,36 +162,6 @@ impl RaysRun<'_> {
         Ok(status)
     }
 
-    fn judged_in(&self, scalar: Option<ScalarName>) -> Result<RaysResult, Failure> {
-        match scalar {
-            Some(ScalarName::F32) => self.summary(&self.judged::<f32>()?),
-            Some(ScalarName::F64) => self.summary(&self.judged::<f64>()?),
-            // A program that hairline runs computes in f64, and standard input is read once.
-            None if self.arguments.program.is_given() || self.reads_standard_input() => {
-                self.summary(&self.judged::<f64>()?)
-            }
-            None => self.judged_in_the_likelier_scalar(),
-        }
-    }
-
-    /// In f64 if no answer is wrong there, or else in f32 if that explains more.
-    fn judged_in_the_likelier_scalar(&self) -> Result<RaysResult, Failure> {
-        let in_f64 = self.judged::<f64>()?;
-        if in_f64.tally.wrong == 0 {
-            return self.summary(&in_f64);
-        }
-        // Numbers that f32 does not hold are of a program that computes in f64.
-        let Ok(mut in_f32) = self.judged::<f32>() else {
-            return self.summary(&in_f64);
-        };
-        if !in_f64.tally.is_explained_better_by(&in_f32.tally) {
-            return self.summary(&in_f64);
-        }
-        let as_written = in_f64.right_as_written.unwrap_or(in_f64.tally.right);
-        in_f32.right_as_written = Some(as_written);
-        self.summary(&in_f32)
-    }
-
     fn summary<F: RaysScalar>(&self, judgements: &Judgements<F>) -> Result<RaysResult, Failure> {
         if let Some(message) = judgements.no_hits() {
             let file = self.arguments.answered.answers.as_deref();
@@ -206,7 +181,7 @@ impl RaysRun<'_> {
         files.into_iter().flatten().any(|file| file == "-")
     }
 
-    fn judged<F: RaysScalar>(&self) -> Result<Judgements<'_, F>, Failure> {
+    fn judged<F: RaysScalar>(&self) -> Result<Judgements<'a, F>, Failure> {
         let scene = self.scene::<F>()?;
         let asked = self.asked::<F>()?;
         let program = match self.arguments.program.is_given() {
@@ -218,6 +193,7 @@ impl RaysRun<'_> {
             scene,
             answers: self.answers(&asked, program.as_ref())?,
             asked,
+            given: self.given.map(|(steps, scalar)| steps.scene(scalar)),
             program,
             tells_each: self.tells_each,
         };
@@ -258,8 +234,17 @@ impl RaysRun<'_> {
         }
     }
 
-    /// The rays or points of a file, or rays that are made.
+    /// The rays or points, as written or as they are given to the program.
     fn asked<F: RaysScalar>(&self) -> Result<Asked<F>, Failure> {
+        Ok(match self.given {
+            None => self.written()?,
+            Some((steps, ScalarName::F64)) => steps.asked(&self.written::<f64>()?),
+            Some((steps, ScalarName::F32)) => steps.asked(&self.written::<f32>()?),
+        })
+    }
+
+    /// The rays or points of a file, or rays that are made.
+    fn written<F: RaysScalar>(&self) -> Result<Asked<F>, Failure> {
         let RaysArguments {
             rays, points, make, ..
         } = self.arguments;

@@ -40,6 +40,7 @@ mod program;
 mod prove;
 mod prove_domain;
 mod rays;
+mod rays_given;
 mod rays_judged;
 mod rays_pictures;
 mod rays_program;

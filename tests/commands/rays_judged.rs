@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// What is said of a program's answers to the rays of `r.csv`, in one line.
-fn judged(folder: &Path, answers: &str, more: &[&str], code: i32) -> String {
+pub fn judged(folder: &Path, answers: &str, more: &[&str], code: i32) -> String {
     fs::write(folder.join("a.csv"), answers).unwrap();
     let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
     flat(&ends(folder, &[&words, more].concat(), code).0)

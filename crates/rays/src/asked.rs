@@ -25,6 +25,7 @@ named! {
 }
 
 /// The answers, in the order of the rays or points.
+#[derive(Clone)]
 pub enum Answers {
     /// The nearest hit of each ray.
     Nearest(Vec<Answer>),

@@ -1,17 +1,18 @@
 //! The answers of a program, judged by the reading of its rays that explains most.
 
-use crate::asked::{Asked, BadRay};
+use crate::asked::{Answers, Asked, BadRay};
 use crate::kernel::Scalar;
 use crate::run::{JudgedRun, Judgements, Tally, cases_label};
-use hairline_scene::Ray;
+use hairline_scene::{Judged, Ray};
 
-/// Judges answers, by the rays as they are, or with directions of length 1 if more are right then: as a program has it that makes them
-/// so, or one that multiplies t alone.
+/// Judges answers, by the rays as they are, or with directions of length 1 or another unit of t if more are right then: as a program
+/// has it that makes them so, or one that multiplies t alone.
 pub fn judged<F: Scalar>(run: JudgedRun<F>) -> Result<Judgements<F>, BadRay> {
     let judged = run.asked.judged(&run.scene, &run.answers)?;
     let as_written = Judgements {
         tally: Tally::of(&judged),
         has_unit_directions: false,
+        has_written_t: false,
         right_as_written: None,
         cases: cases_label(&run.asked),
         judged,
@@ -19,57 +20,84 @@ pub fn judged<F: Scalar>(run: JudgedRun<F>) -> Result<Judgements<F>, BadRay> {
     };
     match as_written.tally.wrong_t {
         0 => Ok(as_written),
-        _ => with_unit_directions(as_written),
+        _ => with_another_t(as_written),
     }
 }
 
-/// The same with directions of length 1, if that explains more.
-fn with_unit_directions<F: Scalar>(as_written: Judgements<F>) -> Result<Judgements<F>, BadRay> {
-    let Judgements { run, tally, .. } = &as_written;
+/// A way in which a program may count t.
+struct CountedT<F> {
+    /// The rays, if they are others.
+    asked: Option<Asked<F>>,
+    /// The answers with t as these rays have it.
+    answers: Answers,
+    has_unit_directions: bool,
+    has_written_t: bool,
+}
+
+/// The ways in which t may be counted, the likeliest last: as a length, and in a scene of another size as in the written one.
+fn counted_ts<F: Scalar>(run: &JudgedRun<F>) -> Vec<CountedT<F>> {
     let rays = run.asked.rays();
     let units: Option<Vec<Ray<F>>> = rays.iter().map(with_unit_direction).collect();
-    let Some(units) = units else {
-        return Ok(as_written);
-    };
-    let units = Asked::Rays(units);
     let lengths: Vec<f64> = rays.iter().map(length_of).collect();
-    let divided = run.answers.with_t_divided(&lengths);
-    let by_length = run.asked.judged(&run.scene, &divided)?;
-    let by_units = units.judged(&run.scene, &run.answers)?;
-    let tallies = [&by_length, &by_units].map(|judged| Tally::of(judged));
-    let has_units = tallies[0].right_hits <= tallies[1].right_hits;
-    let better = match has_units {
-        true => tallies[1],
-        false => tallies[0],
-    };
-    // A program that loses rays at edges is right more often by any rays that are rounded: t has to be better too.
-    let explains_more = tally.right_hits < better.right_hits && 2 * better.wrong_t < tally.wrong_t;
-    if !explains_more {
-        return Ok(as_written);
+    let scale = run.given.as_ref().map_or(1.0, |given| given.scale);
+    let written =
+        (scale != 1.0).then(|| run.answers.with_t_divided(&vec![1.0 / scale; rays.len()]));
+    let mut all = Vec::new();
+    for (answers, has_written_t) in [(written.as_ref(), true), (Some(&run.answers), false)] {
+        let (Some(answers), Some(units)) = (answers, &units) else {
+            continue;
+        };
+        let counted = |asked: Option<Asked<F>>, answers: Answers| CountedT {
+            asked,
+            answers,
+            has_unit_directions: true,
+            has_written_t,
+        };
+        all.push(counted(None, answers.with_t_divided(&lengths)));
+        all.push(counted(Some(Asked::Rays(units.clone())), answers.clone()));
     }
+    all.extend(written.map(|answers| CountedT {
+        asked: None,
+        answers,
+        has_unit_directions: false,
+        has_written_t: true,
+    }));
+    all
+}
+
+/// The same with t counted otherwise, if that explains more.
+fn with_another_t<F: Scalar>(as_written: Judgements<F>) -> Result<Judgements<F>, BadRay> {
+    let Judgements { run, tally, .. } = &as_written;
+    let mut best: Option<(CountedT<F>, Vec<Judged>, Tally)> = None;
+    for counted in counted_ts(run) {
+        let asked = counted.asked.as_ref().unwrap_or(&run.asked);
+        let judged = asked.judged(&run.scene, &counted.answers)?;
+        let tally = Tally::of(&judged);
+        if best
+            .as_ref()
+            .is_none_or(|(_, _, best)| best.right_hits <= tally.right_hits)
+        {
+            best = Some((counted, judged, tally));
+        }
+    }
+    // A program that loses rays at edges is right more often by any rays that are rounded: t has to be better too.
+    let explains_more =
+        |better: &Tally| tally.right_hits < better.right_hits && 2 * better.wrong_t < tally.wrong_t;
+    let Some((counted, judged, better)) = best.filter(|(_, _, tally)| explains_more(tally)) else {
+        return Ok(as_written);
+    };
     let right_as_written = Some(tally.right);
     let Judgements { run, cases, .. } = as_written;
-    let (run, judged) = match has_units {
-        true => {
-            let run = JudgedRun {
-                asked: units,
-                ..run
-            };
-            (run, by_units)
-        }
-        false => {
-            let run = JudgedRun {
-                answers: divided,
-                ..run
-            };
-            (run, by_length)
-        }
-    };
     Ok(Judgements {
-        run,
+        run: JudgedRun {
+            asked: counted.asked.unwrap_or(run.asked),
+            answers: counted.answers,
+            ..run
+        },
         judged,
         tally: better,
-        has_unit_directions: true,
+        has_unit_directions: counted.has_unit_directions,
+        has_written_t: counted.has_written_t,
         right_as_written,
         cases,
     })

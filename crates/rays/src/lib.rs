@@ -28,6 +28,8 @@ mod plain;
 mod result;
 mod text;
 
+mod given;
+mod reading;
 mod run;
 
 mod blame;
@@ -46,6 +48,7 @@ mod scalar;
 pub use asked::{AnswerKind, Answers, Asked, BadRay};
 pub use found::FoundHits;
 pub use found_all::AllHits;
+pub use given::GivenSteps;
 pub use made::MadeRays;
 pub use one::RayTold;
 pub use plain::PlainProgram;

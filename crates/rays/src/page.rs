@@ -1,6 +1,5 @@
 //! Judged answers as a page: how many are wrong, who loses the hits, and the worst.
 
-use crate::arith::ScalarName;
 use crate::asked::AnswerKind;
 use crate::blame::FEWEST;
 use crate::record::{group_digits, number_of};
@@ -165,31 +164,6 @@ impl RaysResult {
         };
         Some(format!(
             "{name} a face that the mesh does not have: faces are counted from 0 here, so the number of all faces is beyond the last."
-        ))
-    }
-
-    /// How the numbers were read, if not as they are written.
-    fn reading(&self) -> Option<String> {
-        let as_written = self.right_as_written?;
-        let by = match (self.scalar, self.has_unit_directions) {
-            (ScalarName::F32, true) => {
-                "by mesh and rays rounded to f32, with directions made of length 1, so that t is a length"
-            }
-            (ScalarName::F32, false) => {
-                "by mesh and rays rounded to f32, in which the program seems to compute"
-            }
-            (ScalarName::F64, _) => {
-                "with directions made of length 1, so that t is a length, as the program seems to do"
-            }
-        };
-        let flag = match self.scalar {
-            ScalarName::F32 => " (--scalar f64)",
-            ScalarName::F64 => "",
-        };
-        Some(format!(
-            "Judged {by}: {} right that way, and {} by the numbers as written{flag}.",
-            number_of(self.right_count(), "answer is", "answers are"),
-            group_digits(as_written)
         ))
     }
 

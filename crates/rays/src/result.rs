@@ -37,6 +37,12 @@ pub struct RaysResult {
     /// How many are right by the numbers as written, in f64, if another reading was chosen because more are right there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub right_as_written: Option<u64>,
+    /// The steps that made the program's scene, if answers are judged by that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub given: Option<GivenScene>,
+    /// How many are right by the program's scene, as its user says that it is made, if answers were judged by that too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub right_as_given: Option<u64>,
     /// The number that added to the faces of wrong answers makes most of them right, if one does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shift: Option<i64>,
@@ -59,6 +65,19 @@ pub struct RaysResult {
     /// Every answer, if it was asked for. A record has the counts alone.
     #[serde(skip)]
     pub each: Vec<EachAnswer>,
+}
+
+/// A scene that a program makes of the written one.
+#[apply(part!)]
+pub struct GivenScene {
+    /// The steps, in their order: `move=-5,0,2 scale=0.001`.
+    pub steps: String,
+    /// How many times as large as the written scene it is.
+    pub scale: f64,
+    /// The scalar in which the steps are computed.
+    pub computed_in: ScalarName,
+    /// True if t is counted as in the written scene.
+    pub has_written_t: bool,
 }
 
 /// How the rays of wrong answers meet the mesh.
@@ -261,9 +280,12 @@ impl Comparable for RaysResult {
             cases,
             mesh,
             scalar,
+            given,
             ..
         } = self;
-        format!("{kind} of {cases}, at {mesh}, in {scalar}")
+        let steps = given.as_ref().map(|it| format!(", after {}", it.steps));
+        let steps = steps.unwrap_or_default();
+        format!("{kind} of {cases}, at {mesh}, in {scalar}{steps}")
     }
 
     fn counted(&self) -> Vec<NamedRate> {

@@ -6,6 +6,7 @@ use crate::files::mesh::Mesh;
 use crate::kernel::Scalar;
 use crate::plain::PlainProgram;
 use crate::record::{group_digits, number_of};
+use crate::result::GivenScene;
 use hairline_scene::{Judged, Judgement, Scene};
 use hmac_sha256::Hash;
 
@@ -19,6 +20,8 @@ pub struct JudgedRun<'a, F: Scalar> {
     pub asked: Asked<F>,
     /// As many answers.
     pub answers: Answers,
+    /// The steps that made the scene and the questions, if they are not as written.
+    pub given: Option<GivenScene>,
     /// Who answered, if hairline ran it.
     pub program: Option<PlainProgram>,
     /// True if each answer is told beside the truth, for CSV: exact values take time.
@@ -35,6 +38,8 @@ pub struct Judgements<'a, F: Scalar> {
     pub tally: Tally,
     /// True if directions are made of length 1 first, so that t is a length.
     pub(crate) has_unit_directions: bool,
+    /// True if t is counted as in the written scene, and the scene is of another size.
+    pub(crate) has_written_t: bool,
     /// How many are right by the numbers as written, in f64, if another reading was chosen because more are right there.
     pub right_as_written: Option<u64>,
     /// The questions as they were given: their number, and a digest.

@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::corpus::lines::AnyCase;
 use crate::kernel::Scalar;
 use crate::plain::{self, PlainProgram};
-use crate::result::{JudgementCount, RaysResult, WithoutBoxes, WrongRays, mesh_label};
+use crate::result::{GivenScene, JudgementCount, RaysResult, WithoutBoxes, WrongRays, mesh_label};
 use crate::run::{JudgedRun, Judgements};
 use crate::told::{each, worst};
 use glam::DVec3;
@@ -38,6 +38,11 @@ where
             .map(|kind| counted_as(kind, judged))
             .collect(),
         right_as_written: judgements.right_as_written,
+        given: run.given.clone().map(|given| GivenScene {
+            has_written_t: judgements.has_written_t,
+            ..given
+        }),
+        right_as_given: None,
         shift: shift(run, judged)?,
         beyond_the_mesh: beyond_the_mesh(run),
         lost,

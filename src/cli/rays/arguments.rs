@@ -80,6 +80,11 @@ pub struct AnswerArguments {
     #[arg(long, value_name = "KIND", help_heading = ANSWERS)]
     pub(super) answered: Option<String>,
 
+    /// How the program moves and scales mesh and rays before it computes, as "move=-5,0,2 scale=0.001": answers are judged by that
+    /// scene too
+    #[arg(long, value_name = "STEPS", requires = "answers", conflicts_with = "points", help_heading = ANSWERS)]
+    pub(super) given: Option<String>,
+
     /// Known wrong answers: fail only if there are more, and with 3 if there are fewer
     #[arg(long, value_name = "FILE", help_heading = ANSWERS)]
     pub(super) known: Option<String>,
