@@ -41,6 +41,7 @@ mod prove;
 mod prove_domain;
 mod rays;
 mod rays_given;
+mod rays_instances;
 mod rays_judged;
 mod rays_pictures;
 mod rays_program;

@@ -22,6 +22,17 @@ pub use builder::{FilePlace, Note};
 #[cfg(feature = "formats")]
 pub use formats::{ReadBeside, read};
 
+/// A part of a mesh that a matrix puts into the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedPart {
+    /// The rows of the matrix; the last column is the translation.
+    pub matrix: [[f64; 4]; 3],
+    /// The number of its first vertex in the mesh.
+    pub first: u32,
+    /// Its vertices as the file has them, before the matrix.
+    pub vertices: Vec<[f32; 3]>,
+}
+
 /// A mesh of triangles, as read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
@@ -43,6 +54,8 @@ pub struct Mesh {
     /// The number of different names of groups and objects (`g`, `o`) that hold triangles in an OBJ file, of
     /// nodes that do in a glTF file; 0 in a PLY or STL file.
     pub groups: usize,
+    /// The parts that a matrix other than the identity put into the world, in the order of their vertices: nodes of a glTF file.
+    pub placed: Vec<PlacedPart>,
     /// Notes for the user, at most one of each kind.
     pub notes: Vec<Note>,
     /// The first 16 hexadecimal digits of the SHA-256 of the bits of all `f64` positions, all `f32`
@@ -64,6 +77,17 @@ impl Mesh {
         } else {
             self.positions_f64[vertex as usize].map(F::from_f64)
         }
+    }
+
+    /// The part that a triangle is of, and its corners there, before the matrix. None if no matrix moved it. Panics if there is no
+    /// such triangle.
+    pub fn before_matrix(&self, triangle: usize) -> Option<(&PlacedPart, [[f32; 3]; 3])> {
+        let corners = self.triangles[triangle];
+        let parts = self.placed.partition_point(|part| part.first <= corners[0]);
+        let part = &self.placed[parts.checked_sub(1)?];
+        let corner = |vertex: u32| part.vertices.get((vertex - part.first) as usize).copied();
+        let [a, b, c] = corners.map(corner);
+        Some((part, [a?, b?, c?]))
     }
 
     /// The note on the polygons of the file that are not in the mesh, if there are any.

@@ -1,5 +1,5 @@
-//! Who loses the same hits: built-in kernels alone on the faces that it lies on, slab tests on the boxes of these, or an end of the
-//! interval.
+//! Who loses the same hits: built-in kernels alone on the faces that it lies on, slab tests on the boxes of these, the transform of an
+//! instance, or an end of the interval.
 
 use crate::audit::Row as KernelRow;
 use crate::case::{Case, Target};
@@ -7,6 +7,7 @@ use crate::files::mesh::Mesh;
 use crate::kernel::{Entry, KERNELS, KernelIn, Scalar, Verdict, verdicts_of};
 use crate::result::{LostHits, MissCount};
 use crate::single::{box_case, case_of};
+use crate::transform::Way;
 use hairline_boxes::{BoxCase, KERNELS as BOX_TESTS, Setup};
 use hairline_scene::{Nearest, Ray, Scene};
 use std::cmp::Reverse;
@@ -65,6 +66,13 @@ pub fn lost_hits<F: Scalar>(
         Some(missed.named(entry.info.name, None, explained))
     });
     counts.missed_by_box_tests = best_first(box_tests);
+    let transforms = Way::ALL.into_iter().map(|way| {
+        let missed = sides.count(|side| side.missed_after(way));
+        let unexplained = missed.of_found.max(sides.by_chance(&missed));
+        let explained = missed.of_lost.saturating_sub(unexplained);
+        missed.named(way.name(), None, explained)
+    });
+    counts.missed_by_transforms = best_first(transforms);
     counts
 }
 
@@ -166,6 +174,8 @@ impl Missed {
 struct Both<F: Scalar> {
     triangles: Grouped<Case<F>>,
     boxes: Grouped<BoxCase<F>>,
+    /// For each hit the ways of a transform that lose it on all of its faces.
+    transforms: Vec<Vec<Way>>,
 }
 
 /// Cases in groups: those of a hit together.
@@ -178,12 +188,25 @@ impl<F: Scalar> Both<F> {
     fn new<'a>(mesh: &Mesh, hits: impl Iterator<Item = &'a HitOfRay<'a, F>>) -> Both<F> {
         let mut triangles = Grouped::default();
         let mut boxes = Grouped::default();
+        let mut transforms = Vec::new();
         for HitOfRay { ray, hit } in hits {
             let faces = hit.faces.iter().take(FACES);
+            let loses = |way: &Way| faces.clone().all(|face| way.loses(mesh, ray, *face));
+            transforms.push(Way::ALL.into_iter().filter(loses).collect());
             triangles.add(faces.clone().map(|face| case_of(mesh, ray, *face)));
             boxes.add(faces.map(|face| box_case(ray, &mesh.vertices::<F>(*face as usize))));
         }
-        Both { triangles, boxes }
+        Both {
+            triangles,
+            boxes,
+            transforms,
+        }
+    }
+
+    /// How many hits are lost after a transform.
+    fn missed_after(&self, way: Way) -> u64 {
+        let missed = self.transforms.iter().filter(|ways| ways.contains(&way));
+        missed.count() as u64
     }
 }
 

@@ -89,6 +89,7 @@ impl GivenSteps {
         Mesh {
             positions_f64: wide,
             positions_f32: narrow,
+            placed: Vec::new(),
             ..mesh.clone()
         }
     }

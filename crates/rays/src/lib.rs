@@ -12,7 +12,7 @@ extern crate hairline_record;
 #[macro_use]
 extern crate macro_rules_attribute;
 use hairline_cases::corpus;
-use hairline_core::{arith, case, kernel};
+use hairline_core::{arith, case, kernel, oracle};
 use hairline_files as files;
 use hairline_record as record;
 use hairline_report as report;
@@ -20,6 +20,7 @@ use hairline_study::audit;
 
 // The floors, from the ground up: each module uses only those above it in this list.
 mod single;
+mod transform;
 
 mod asked;
 mod made;

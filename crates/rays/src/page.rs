@@ -253,6 +253,14 @@ impl LostHits {
         let by_boxes = explained(&self.missed_by_box_tests);
         let kernels = named(&self.missed_by_kernels);
         let box_tests = named(&self.missed_by_box_tests);
+        let by_transforms = explained(&self.missed_by_transforms);
+        // A test that explains as much is the simpler reason.
+        if enough <= by_transforms && by_kernels.max(by_boxes) < by_transforms {
+            return Some(format!(
+                "The instance's transform loses them: in f32 it parts these rays from their faces, and hardly any other ({}).",
+                named(&self.missed_by_transforms)
+            ));
+        }
         let half = self.count as f64 / 2.0;
         if enough <= by_kernels && by_boxes <= by_kernels {
             return Some(format!(
@@ -274,7 +282,11 @@ impl LostHits {
     /// The test that explains most of the lost hits, if it explains some.
     fn nearest_test(&self) -> Option<String> {
         let best = |all: &[MissCount]| all.first().map(|it| it.explained).unwrap_or(0);
-        let tests = [&self.missed_by_kernels, &self.missed_by_box_tests];
+        let tests = [
+            &self.missed_by_kernels,
+            &self.missed_by_box_tests,
+            &self.missed_by_transforms,
+        ];
         let nearest = tests.into_iter().max_by_key(|all| best(all))?;
         (self.count <= 4 * best(nearest)).then(|| {
             let test = &nearest[0];

@@ -152,6 +152,9 @@ pub struct LostHits {
     pub missed_by_kernels: Vec<MissCount>,
     /// The built-in slab tests that miss some of them too, on the boxes of all faces of the hit: those first that explain most.
     pub missed_by_box_tests: Vec<MissCount>,
+    /// The ways in which an instance's transform in f32 loses some of them too: those first that explain most.
+    #[serde(default)]
+    pub missed_by_transforms: Vec<MissCount>,
 }
 
 /// How many rays a plain program loses if it asks about every face.

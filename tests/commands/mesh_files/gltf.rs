@@ -57,6 +57,28 @@ fn nodes_put_meshes_where_they_belong() {
             [0.5 - x, *y, z + 1.0].map(|x| x as f32)
         );
     }
+    // Their places before the matrix are kept, but not those of the plain one.
+    assert_eq!((mesh.placed.len(), plain.placed.len()), (2, 0));
+    let mirrored = &mesh.placed[1];
+    assert_eq!(
+        mirrored.matrix,
+        [
+            [-1.0, 0.0, 0.0, 0.5],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 1.0]
+        ]
+    );
+    assert_eq!(
+        (mirrored.first, &mirrored.vertices),
+        (8, &plain.positions_f32)
+    );
+    assert_eq!(plain.before_matrix(0), None);
+    assert_eq!(mesh.before_matrix(23), None);
+    let [a, ..] = mesh.triangles[12];
+    assert_eq!(
+        mesh.before_matrix(12).unwrap().1[0],
+        plain.positions_f32[a as usize - 8]
+    );
     // A mirror image is wound the other way round, so that its outside stays outside.
     assert_eq!(mesh.triangles[8], [8, 8 + 4, 8 + 2]);
     // The node without a transform keeps every bit.

@@ -1,6 +1,6 @@
 //! The builder that every reader of meshes fills: vertices, then faces as fans of triangles, and notes.
 
-use super::{InputError, Mesh};
+use super::{InputError, Mesh, PlacedPart};
 use crate::{fan, polygon};
 use hmac_sha256::Hash;
 use std::fmt;
@@ -60,6 +60,7 @@ pub(super) struct MeshBuilder {
     pub positions_f64: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
     places: Vec<u32>,
+    pub placed: Vec<PlacedPart>,
     notes: Vec<Note>,
     /// True if faces are counted instead of lines.
     without_lines: bool,
@@ -158,6 +159,7 @@ impl MeshBuilder {
             places: self.places,
             has_lines: !self.without_lines,
             groups,
+            placed: self.placed,
             notes: self.notes,
         })
     }

@@ -6,7 +6,7 @@ mod buffers;
 
 use super::builder::{FilePlace, MeshBuilder};
 use super::counted::ReadLimits;
-use super::{InputError, Mesh};
+use super::{InputError, Mesh, PlacedPart};
 use buffers::Buffers;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::json;
@@ -260,6 +260,13 @@ impl GltfReader<'_> {
     }
 
     fn add_mesh(&mut self, mesh: &gltf::Mesh, transform: &DAffine3) -> Result<(), InputError> {
+        if *transform != DAffine3::IDENTITY {
+            self.mesh.placed.push(PlacedPart {
+                matrix: rows(transform),
+                first: self.mesh.vertices() as u32,
+                vertices: Vec::new(),
+            });
+        }
         // Where the vertices of each accessor begin: primitives may share them.
         let mut starts = HashMap::new();
         for primitive in mesh.primitives() {
@@ -313,6 +320,11 @@ impl GltfReader<'_> {
                 return self.error(format!(
                     "{place}: vertex {index} has {number}, which is not finite"
                 ));
+            }
+            if *transform != DAffine3::IDENTITY
+                && let Some(part) = self.mesh.placed.last_mut()
+            {
+                part.vertices.push(local);
             }
             let place = FilePlace::Vertex(self.mesh.vertices() + 1);
             self.mesh
@@ -445,6 +457,12 @@ fn placed(transform: &DAffine3, point: [f32; 3]) -> [f64; 3] {
         return point;
     }
     transform.transform_point3(point.into()).to_array()
+}
+
+/// The rows of a transform's matrix; the last column is the translation.
+fn rows(transform: &DAffine3) -> [[f64; 4]; 3] {
+    let columns = transform.to_cols_array_2d();
+    [0, 1, 2].map(|row| columns.map(|column| column[row]))
 }
 
 /// True if it turns a right hand into a left one; glTF then counts corners the other way round.
