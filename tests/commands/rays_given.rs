@@ -46,6 +46,31 @@ fn answers_are_judged_by_the_scene_that_a_program_makes_first() {
         );
         assert!(said.contains(&words), "{words}: {said}");
     }
+    // A program that rounds the ray first, and then moves and scales it in f32, meets the other face.
+    let square =
+        "v 16777216 0 0\nv 16777218 0 0\nv 16777218 2 0\nv 16777216 2 0\nf 1 2 3\nf 1 3 4\n";
+    fs::write(folder.join("t.obj"), square).unwrap();
+    fs::write(folder.join("r.csv"), "16777217,0.5,1,0,0,-1\n").unwrap();
+    let in_f32 = judged("1,0.5\n", "move=-16777216,0,0 scale=0.5", 0);
+    assert!(
+        in_f32.contains("after move=-16777216,0,0 scale=0.5 in f32: 1 answer is right that way"),
+        "{in_f32}"
+    );
+    // Expected wrong answers of that scene are no other cases in the next run.
+    let known = [
+        "--given",
+        "move=-16777216,0,0 scale=0.5",
+        "--known",
+        "k.toml",
+    ];
+    let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
+    ends(&folder, &[&words[..], &known, &["--bless"]].concat(), 0);
+    let text = fs::read_to_string(folder.join("k.toml")).unwrap();
+    assert!(
+        text.contains("after move=-16777216,0,0 scale=0.5"),
+        "{text}"
+    );
+    ends(&folder, &[&words[..], &known].concat(), 0);
     let refused = |more: &[&str], message: &str| {
         let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
         let (_, error) = ends(&folder, &[&words[..], more].concat(), 2);

@@ -163,7 +163,7 @@ impl RaysResult {
             (count, None) => format!("{} answers name", group_digits(count)),
         };
         Some(format!(
-            "{name} a face that the mesh does not have: faces are counted from 0 here, so the number of all faces is beyond the last."
+            "{name} a face that the mesh does not have: faces are counted from 0 here, so the last one's number is one less than there are faces."
         ))
     }
 

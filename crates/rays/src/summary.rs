@@ -255,22 +255,32 @@ fn counted_as(judgement: Judgement, judged: &[Judged]) -> JudgementCount {
     }
 }
 
+/// The faces that a program named for a ray, and the exact ones: of the nearest hit, or of all hits.
+struct FacesOfRay {
+    named: Vec<u32>,
+    exact: Vec<u32>,
+}
+
+impl FacesOfRay {
+    /// How many named faces are exact ones if their numbers are shifted.
+    fn right_after(&self, shift: i64) -> usize {
+        let is_right = |face: &&u32| {
+            let shifted = u32::try_from(i64::from(**face) + shift);
+            shifted.is_ok_and(|face| self.exact.contains(&face))
+        };
+        self.named.iter().filter(is_right).count()
+    }
+}
+
 /// The shift of face numbers with which most faces are right, and more than without: of a program that counts from 1, for
 /// example.
 fn shift<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<Option<i64>, BadRay> {
-    let all = named_beside_exact(run, judged)?;
-    let right = |shift: i64| {
-        let is_right = |face: u32, exact: &[u32]| {
-            let shifted = u32::try_from(i64::from(face) + shift);
-            shifted.is_ok_and(|face| exact.contains(&face))
-        };
-        let of_ray = |(named, exact): &(Vec<u32>, Vec<u32>)| {
-            let right = named.iter().filter(|face| is_right(**face, exact));
-            right.count()
-        };
-        all.iter().map(of_ray).sum::<usize>()
-    };
-    let named: usize = all.iter().map(|(named, _)| named.len()).sum();
+    if !judged.iter().any(|it| it.judgement.is_wrong()) {
+        return Ok(None);
+    }
+    let rays = faces_of_hits(run, judged)?;
+    let right = |shift: i64| -> usize { rays.iter().map(|ray| ray.right_after(shift)).sum() };
+    let named: usize = rays.iter().map(|ray| ray.named.len()).sum();
     let as_written = right(0);
     let is_most = |shift: &i64| {
         let shifted = right(*shift);
@@ -279,32 +289,32 @@ fn shift<F: Scalar>(run: &JudgedRun<F>, judged: &[Judged]) -> Result<Option<i64>
     Ok([-1, 1].into_iter().find(is_most))
 }
 
-/// The faces that a program named, and the exact ones, for each ray that has both: of the nearest hit, or of all hits.
-fn named_beside_exact<F: Scalar>(
+/// The faces of each ray that hits the mesh, if faces are named.
+fn faces_of_hits<F: Scalar>(
     run: &JudgedRun<F>,
     judged: &[Judged],
-) -> Result<Vec<(Vec<u32>, Vec<u32>)>, BadRay> {
-    let is_any_wrong = || judged.iter().any(|it| it.judgement.is_wrong());
+) -> Result<Vec<FacesOfRay>, BadRay> {
+    let rays = run.asked.rays();
     let exact: Vec<Vec<u32>> = match run.answers.kind() {
         AnswerKind::Nearest => {
             let hits = judged.iter().map(|it| it.hit.as_ref());
             hits.map(|hit| hit.map_or(Vec::new(), |hit| hit.faces.clone()))
                 .collect()
         }
-        AnswerKind::All if is_any_wrong() => {
-            let rays = run.asked.rays();
-            of_all(rays.len(), |i| {
-                let hits = run.scene.hits(&rays[i])?;
-                Ok(hits.into_iter().flat_map(|hit| hit.faces).collect())
-            })?
-        }
-        _ => Vec::new(),
+        AnswerKind::All => of_all(rays.len(), |i| {
+            let hits = run.scene.hits(&rays[i])?;
+            Ok(hits.into_iter().flat_map(|hit| hit.faces).collect())
+        })?,
+        AnswerKind::Any | AnswerKind::Count | AnswerKind::Inside => Vec::new(),
     };
-    let all = exact.into_iter().enumerate();
-    let both = all.map(|(index, exact)| (run.answers.faces(index), exact));
-    Ok(both
-        .filter(|(named, exact)| !named.is_empty() && !exact.is_empty())
-        .collect())
+    let all = exact
+        .into_iter()
+        .enumerate()
+        .map(|(index, exact)| FacesOfRay {
+            named: run.answers.faces(index),
+            exact,
+        });
+    Ok(all.filter(|ray| !ray.exact.is_empty()).collect())
 }
 
 /// How many answers name a face that the mesh does not have.
