@@ -71,6 +71,12 @@ fn answers_are_judged_by_the_scene_that_a_program_makes_first() {
         "{text}"
     );
     ends(&folder, &[&words[..], &known].concat(), 0);
+    let beyond = ["--given", "scale=1e300", "--scalar", "f32"];
+    let (_, error) = ends(&folder, &[&words[..], &beyond].concat(), 65);
+    assert!(
+        error.contains("t.obj: face 0, counted from 0, has a coordinate beyond f32"),
+        "{error}"
+    );
     let refused = |more: &[&str], message: &str| {
         let words = ["rays", "t.obj", "r.csv", "-q", "--answers", "a.csv"];
         let (_, error) = ends(&folder, &[&words[..], more].concat(), 2);

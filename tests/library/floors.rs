@@ -49,7 +49,7 @@ const ROOMS: [Room; 18] = [
     room("crates/expect/src", Some("expect"), 17_800),
     room("crates/vectors/src", Some("vectors"), 11_900),
     room("crates/repair/src", Some("repair"), 16_800),
-    room("src", None, 110_540),
+    room("src", None, 110_580),
 ];
 
 /// The crates' sources, the lowest first.

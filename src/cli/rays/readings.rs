@@ -74,6 +74,7 @@ impl<'a> RaysRun<'a> {
         let right_as_written = written.right_as_written();
         let mut best = written;
         let mut right_as_given = None;
+        let mut failure = None;
         for (mesh, computed_in, read_in) in readings {
             if scalar.is_some_and(|scalar| scalar != read_in) {
                 continue;
@@ -84,13 +85,19 @@ impl<'a> RaysRun<'a> {
                 ..*self
             };
             // Numbers that the scalar does not hold are not those of the program.
-            let Ok(given) = run.judged_by(read_in) else {
-                continue;
-            };
-            right_as_given = right_as_given.max(Some(given.tally().right));
-            if best.tally().is_explained_better_by(given.tally()) {
-                best = given;
+            match run.judged_by(read_in) {
+                Err(error) => failure = Some(error),
+                Ok(given) => {
+                    right_as_given = right_as_given.max(Some(given.tally().right));
+                    if best.tally().is_explained_better_by(given.tally()) {
+                        best = given;
+                    }
+                }
             }
+        }
+        // Steps that leave no scene at all are wrong ones.
+        if let (None, Some(failure)) = (right_as_given, failure) {
+            return Err(failure);
         }
         let result = self.summary_of(&best)?;
         let right_as_written = match result.given {
