@@ -5,7 +5,7 @@ import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 
 const common = { bundle: true, minify: true, target: "es2023", logLevel: "warning" };
-const texts = { "virtual:mesh-script": `export default () => {${readFileSync("../src/report/mesh/view.js", "utf8")}};` };
+const texts = { "virtual:mesh-script": `export default () => {${readFileSync("../crates/report/src/mesh/view.js", "utf8")}};` };
 const virtual = {
   name: "virtual",
   setup(build) {

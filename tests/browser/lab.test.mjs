@@ -55,7 +55,8 @@ describe("a kernel in JavaScript", () => {
       await then(page, () => edit(page, text));
       assert.match(await page.textContent("#error"), error);
     }
-    await then(page, () => edit(page, "export default () => true;"));
+    // A kernel that hits everything is refused.
+    await then(page, () => edit(page, "export default ({ origin: [x] }) => Math.abs(x) < 30;"));
     assert.ok(await page.locator("#error").isHidden());
     assert.match(await title(page), /^yours \(own\)/);
     // What leads on names the kernel.

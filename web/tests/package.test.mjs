@@ -152,7 +152,7 @@ test("what is wrong with a request is said in a line", () => {
   assert.throws(() => hairline.audit("moller"), /no kernel 'moller'/);
   assert.throws(() => hairline.truths(new Float64Array(16)), /17 numbers a case, found 16/);
   for (const [id, message] of [
-    ["nothing", /not a case id/], ["edge-near@2/f16/-/1/2", /unknown scalar/], ["edge@1/f32/-/1/2", /makes no cases of/],
+    ["nothing", /not a case id/], ["edge-near@2/f16/-/1/2", /its scalar is 'f16', expected f32 or f64/], ["edge@1/f32/-/1/2", /makes no cases of/],
     ["edge-near@2/f32/-/1/2.7", /has 1 triangle, counted from 0/], ["scene-shadow@1/f32/kernel=none/1/2", /no kernel 'none'/],
     ['{"scalar":"f32"}', /origin/],
   ]) assert.throws(() => hairline.truth(id), message, id);
@@ -164,9 +164,11 @@ test("what a hit does not report is not judged, from whichever side it comes", (
   const kinds = (kernel) => new Set(hairline.audit(kernel, { count: 50 }).record.result.results
     .flatMap(({ findings }) => findings.map(({ finding }) => finding)));
   const isFront = ({ origin: [, , z] }) => z > 0;
+  // A kernel that hits everything is refused.
+  const isNear = ({ origin: [x] }) => Math.abs(x) < 30;
   for (const [hit, expected] of [[() => true, false], [() => ({ t: 1 }), true], [() => 1, true],
     [(ray) => (isFront(ray) ? null : { t: 1 }), true], [(ray) => (isFront(ray) ? null : true), false]]) {
-    const found = kinds(hit);
+    const found = kinds((ray) => (isNear(ray) ? hit(ray) : null));
     assert.ok(found.has("false-hit"), String(hit));
     assert.equal(found.has("wrong-value"), expected, String(hit));
   }
