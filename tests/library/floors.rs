@@ -442,3 +442,18 @@ fn below_the_command_line_nothing_prints_opens_files_or_reads_a_clock() {
         }
     }
 }
+
+/// No job without Node.js notices when a file moves that the lab is made of.
+#[test]
+fn files_that_the_lab_takes_from_the_crates_are_there() {
+    let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web");
+    let mut taken = 0;
+    for name in ["lab.css", "bundle.mjs"] {
+        let text = fs::read_to_string(web.join(name)).unwrap();
+        for word in text.split('"').filter(|word| word.starts_with("../")) {
+            assert!(web.join(word).is_file(), "web/{name} takes {word}");
+            taken += 1;
+        }
+    }
+    assert_eq!(taken, 3);
+}
