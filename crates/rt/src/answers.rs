@@ -4,8 +4,8 @@ use crate::device::Device;
 use crate::failure::Failure;
 use crate::input::{read_mesh, read_rays, triangles};
 use crate::output::print;
-use crate::structure::{Build, Part, build};
-use crate::trace::{DeviceRay, Tracer};
+use crate::structure::{Build, Part, Structure, build};
+use crate::trace::{DeviceRay, Found, Met, Tracer};
 use clap::ValueEnum;
 
 /// The device's answers about rays at a mesh, as CSV for `hairline rays MESH RAYS --answers`
@@ -35,7 +35,7 @@ enum Question {
     All,
 }
 
-/// How many triangles that a ray meets are told at first.
+/// How many triangles that a ray meets are told at once.
 const ROOM: usize = 16;
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -47,33 +47,55 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let part = Part::of(triangles(&mesh));
     let structures = build(&device, &mut encoder, &[vec![part]], Build::FastTrace)?;
     device.finish(encoder, [])?;
-    let tracer = Tracer::new(&device);
-    let mut room = match arguments.answered {
-        Question::All => ROOM,
-        _ => 0,
+    let asked = AskedRays {
+        tracer: Tracer::new(&device),
+        structure: &structures[0],
+        rays: &rays,
     };
-    let (mut found, mut met) = tracer.trace(&structures[0], &rays, room)?;
-    let most = found.iter().map(|found| found.count as usize).max();
-    if let (Question::All, Some(most)) = (arguments.answered, most.filter(|most| room < *most)) {
-        room = most;
-        (found, met) = tracer.trace(&structures[0], &rays, room)?;
+    print(&match arguments.answered {
+        Question::Nearest => asked.each(|found| match found.face() {
+            Some(face) => format!("{face},{}", found.t),
+            None => "-1".to_owned(),
+        })?,
+        Question::Any => asked.each(|found| u8::from(found.face().is_some()).to_string())?,
+        Question::Count => asked.each(|found| found.count.to_string())?,
+        Question::All => asked.all_hits()?,
+    })
+}
+
+/// Rays at a mesh on a device.
+struct AskedRays<'a> {
+    tracer: Tracer<'a>,
+    structure: &'a Structure,
+    rays: &'a [DeviceRay],
+}
+
+impl AskedRays<'_> {
+    /// A line a ray.
+    fn each(&self, line: impl Fn(&Found) -> String) -> Result<String, Failure> {
+        let (found, _) = self.tracer.trace(self.structure, self.rays, 0)?;
+        Ok(found.iter().map(|found| line(found) + "\n").collect())
     }
 
-    let mut text = String::new();
-    for (index, found) in found.iter().enumerate() {
-        match (arguments.answered, found.face()) {
-            (Question::Nearest, Some(face)) => text += &format!("{face},{}\n", found.t),
-            (Question::Nearest, None) => text += "-1\n",
-            (Question::Any, face) => text += &format!("{}\n", u8::from(face.is_some())),
-            (Question::Count, _) => text += &format!("{}\n", found.count),
-            (Question::All, _) => {
-                let mut hits = met[index * room..][..found.count as usize].to_vec();
-                hits.sort_by(|a, b| a.t.total_cmp(&b.t));
-                for hit in hits {
-                    text += &format!("{index},{},{}\n", hit.face, hit.t);
+    /// A line a hit.
+    fn all_hits(&self) -> Result<String, Failure> {
+        let (found, met) = self.tracer.trace(self.structure, self.rays, ROOM)?;
+        let mut text = String::new();
+        for (index, found) in found.iter().enumerate() {
+            let count = found.count as usize;
+            let mut hits = match count <= ROOM {
+                true => met[index * ROOM..][..count].to_vec(),
+                // It is asked once more, alone.
+                false => {
+                    let ray = &self.rays[index..=index];
+                    self.tracer.trace(self.structure, ray, count)?.1
                 }
+            };
+            hits.sort_by(|a, b| a.t.total_cmp(&b.t));
+            for Met { face, t } in hits {
+                text += &format!("{index},{face},{t}\n");
             }
         }
+        Ok(text)
     }
-    print(&text)
 }

@@ -20,6 +20,19 @@ pub struct Shader {
     pipeline: wgpu::ComputePipeline,
 }
 
+/// One of the dispatches of a task.
+pub struct Run {
+    index: u64,
+    pub rays: u32,
+}
+
+impl Run {
+    /// A seed of its own.
+    pub fn seed(&self, seed: u32) -> u32 {
+        seed.wrapping_mul(0x9e37_79b9) ^ self.index as u32
+    }
+}
+
 impl Device {
     /// The first adapter with ray queries. `WGPU_BACKEND` and `WGPU_ADAPTER_NAME` choose among several.
     pub fn open() -> Result<Device, Failure> {
@@ -174,6 +187,15 @@ impl Device {
             *bytes = range.map_err(Failure::unavailable)?.to_vec();
         }
         Ok(read)
+    }
+
+    /// The dispatches that trace so many rays, none so long that a driver takes it for a hang.
+    pub fn runs(&self, rays: u64) -> impl Iterator<Item = Run> {
+        let most = (1 << 22).min(self.most_invocations() as u64);
+        (0..rays.div_ceil(most)).map(move |index| Run {
+            index,
+            rays: most.min(rays - index * most) as u32,
+        })
     }
 
     /// The most invocations of one dispatch.

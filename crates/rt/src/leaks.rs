@@ -51,8 +51,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mesh = read_mesh(&arguments.mesh)?;
     let device = Device::open()?;
     let aimer = Aimer::new(&device, arguments.count, arguments.seed);
-    let world =
-        World::new(&mesh, 1.0).map_err(|why| Failure::data(format!("{}: {why}", mesh.name)))?;
+    let world = World::new(&mesh, 1.0, arguments.seed)
+        .map_err(|why| Failure::data(format!("{}: {why}", mesh.name)))?;
 
     let whole = vec![Part::of(world.triangles.clone())];
     let mut rows = vec![
@@ -65,14 +65,15 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
             aimed(&aimer, &world, &whole, Build::FastBuild)?,
         ),
     ];
-    let tiled = world.on_a_grid();
-    let tiled = tiled.map_err(|why| Failure::data(format!("{}, for tiles: {why}", mesh.name)))?;
-    let tiles = tiled.tiles(arguments.tiles);
-    let name = format!("{} instances with translations", tiles.len());
-    rows.push(Row::new(
-        &name,
-        aimed(&aimer, &tiled, &tiles, Build::FastTrace)?,
-    ));
+    // A mesh far from the origin may lose its inside on the grid.
+    if let Ok(tiled) = world.on_a_grid() {
+        let tiles = tiled.tiles(arguments.tiles);
+        let name = format!("{} instances with translations", tiles.len());
+        rows.push(Row::new(
+            &name,
+            aimed(&aimer, &tiled, &tiles, Build::FastTrace)?,
+        ));
+    }
 
     let scaled = match arguments.scales {
         true => scaled(&aimer, &mesh)?,
@@ -119,7 +120,7 @@ fn scaled(aimer: &Aimer, mesh: &hairline_files::mesh::Mesh) -> Result<Vec<Scaled
     let mut all = Vec::new();
     for exponent in EXPONENTS {
         // A size at which numbers of f32 do not hold the mesh is no fault of the device.
-        let Ok(world) = World::new(mesh, 10f64.powi(exponent)) else {
+        let Ok(world) = World::new(mesh, 10f64.powi(exponent), aimer.seed()) else {
             continue;
         };
         let part = Part::of(world.triangles.clone());

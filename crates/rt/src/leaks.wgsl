@@ -1,25 +1,16 @@
-// Rays from points inside a closed mesh, aimed at its vertices, edges or faces: each has to meet it.
 
-struct Task { seed: u32, rays: u32, faces: u32, origins: u32, aim: u32, room: u32 }
-struct Suspect { origin: u32, count: u32, is_hit: u32, x: f32, y: f32, z: f32 }
+// Rays from inside a closed mesh, aimed at its vertices, edges or faces: each has to meet it.
+
+struct Task { seed: u32, rays: u32, faces: u32, aim: u32, room: u32 }
+struct Suspect { ox: f32, oy: f32, oz: f32, dx: f32, dy: f32, dz: f32, is_hit: u32 }
 struct Counters { lost: atomic<u32>, even: atomic<u32> }
 
-@group(0) @binding(0) var scene: acceleration_structure;
-@group(0) @binding(1) var<storage, read> task: Task;
-@group(0) @binding(2) var<storage, read> origins: array<f32>;
-@group(0) @binding(3) var<storage, read> corners: array<f32>;
+@group(0) @binding(3) var<storage, read> task: Task;
 @group(0) @binding(4) var<storage, read_write> counters: Counters;
 @group(0) @binding(5) var<storage, read_write> suspects: array<Suspect>;
 
 const AT_VERTEX = 0u;
 const AT_EDGE = 1u;
-
-fn unit() -> f32 { return f32(draw() >> 8u) / 16777216.0; }
-
-fn corner(face: u32, which: u32) -> vec3f {
-    let first = 9u * face + 3u * (which % 3u);
-    return vec3f(corners[first], corners[first + 1u], corners[first + 2u]);
-}
 
 fn target_point() -> vec3f {
     let face = draw() % task.faces;
@@ -44,9 +35,8 @@ fn target_point() -> vec3f {
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= task.rays { return; }
-    state = mixed(mixed(id.x) ^ task.seed);
-    let from_point = draw() % task.origins;
-    let origin = vec3f(origins[3u * from_point], origins[3u * from_point + 1u], origins[3u * from_point + 2u]);
+    begin(id.x, task.seed);
+    let origin = origin_inside();
     let direction = target_point() - origin;
     if all(direction == vec3f(0.0)) { return; }
 
@@ -64,7 +54,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     }
 
     // The first half of the room is for lost rays, the second for those with an even count.
-    let suspect = Suspect(from_point, count, u32(is_hit), direction.x, direction.y, direction.z);
+    let suspect = Suspect(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, u32(is_hit));
     if !is_hit {
         let place = atomicAdd(&counters.lost, 1u);
         if place < task.room { suspects[place] = suspect; }

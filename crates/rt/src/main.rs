@@ -23,7 +23,8 @@ use std::process::ExitCode;
 ///
 /// WGPU_ADAPTER_NAME=llvmpipe picks an adapter by a part of its name, WGPU_BACKEND=vulkan a backend.
 ///
-/// Exit codes: 0, 1 if rays leak, 2 for a wrong command line, 65 for wrong input, 69 without such a device.
+/// Exit codes: 0, 1 if rays leak, 2 for a wrong command line, 65 for wrong input, 66 for a missing file, 69 without such a device, 74 for a
+/// file that cannot be read or written.
 #[derive(Parser)]
 #[command(name = "hairline-rt", version, arg_required_else_help = true)]
 struct Arguments {

@@ -30,8 +30,8 @@ pub struct Arguments {
     )]
     scheme: Vec<Scheme>,
     /// First rays for each
-    #[arg(short = 'n', long, default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
-    count: u32,
+    #[arg(short = 'n', long, default_value_t = 200_000, value_parser = clap::value_parser!(u64).range(1..))]
+    count: u64,
     /// Other rays
     #[arg(long, default_value_t = 1)]
     seed: u32,
@@ -115,7 +115,6 @@ impl Scheme {
 struct Task {
     seed: u32,
     rays: u32,
-    origins: u32,
     scheme: u32,
     value: f32,
     is_along_ray: u32,
@@ -130,7 +129,7 @@ struct Counted {
 }
 
 /// Second rays.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct Seconds {
     rays: u64,
     /// Those that hit the triangle that they leave.
@@ -151,7 +150,7 @@ struct Offsets {
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mesh = read_mesh(&arguments.mesh)?;
-    let world = World::new(&mesh, 1.0);
+    let world = World::new(&mesh, 1.0, arguments.seed);
     let world = world.map_err(|why| Failure::data(format!("{}: {why}", mesh.name)))?;
     let device = Device::open()?;
     let mut encoder = device.gpu.create_command_encoder(&Default::default());
@@ -161,6 +160,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let traced = Traced {
         shader: device.shader(concat!(
             include_str!("common.wgsl"),
+            include_str!("inside.wgsl"),
             include_str!("offsets.wgsl")
         )),
         device: &device,
@@ -201,35 +201,35 @@ struct Traced<'a> {
 impl Traced<'_> {
     /// Counts second rays of an offset, from points of one form.
     fn count(&self, scheme: Scheme, is_along_ray: bool) -> Result<Seconds, Failure> {
-        let task = Task {
-            seed: self.arguments.seed.wrapping_mul(0x9e37_79b9),
-            rays: self.arguments.count,
-            origins: self.world.origins.len() as u32,
-            scheme: scheme.kind as u32,
-            value: scheme.value,
-            is_along_ray: u32::from(is_along_ray),
-        };
-        let task = self.device.storage(&[task]);
-        let origins = self.device.storage(&self.world.origins);
+        let balls = self.device.storage(&self.world.balls);
         let corners = self.device.storage(&self.world.triangles);
-        let counters = self.device.zeros::<u32>(3);
-        let bound = [
-            self.structure.tlas.as_binding(),
-            task.as_entire_binding(),
-            origins.as_entire_binding(),
-            corners.as_entire_binding(),
-            counters.as_entire_binding(),
-        ];
-        let mut encoder = self.device.gpu.create_command_encoder(&Default::default());
-        self.device
-            .dispatch(&mut encoder, &self.shader, &bound, self.arguments.count);
-        let [counters] = self.device.finish(encoder, [&counters])?;
-        let counters: Vec<u32> = bytemuck::pod_collect_to_vec(&counters);
-        Ok(Seconds {
-            rays: counters[0].into(),
-            self_hits: counters[1].into(),
-            lost: counters[2].into(),
-        })
+        let mut seconds = Seconds::default();
+        for run in self.device.runs(self.arguments.count) {
+            let task = self.device.storage(&[Task {
+                seed: run.seed(self.arguments.seed),
+                rays: run.rays,
+                scheme: scheme.kind as u32,
+                value: scheme.value,
+                is_along_ray: u32::from(is_along_ray),
+            }]);
+            let counters = self.device.zeros::<u32>(3);
+            let bound = [
+                self.structure.tlas.as_binding(),
+                balls.as_entire_binding(),
+                corners.as_entire_binding(),
+                task.as_entire_binding(),
+                counters.as_entire_binding(),
+            ];
+            let mut encoder = self.device.gpu.create_command_encoder(&Default::default());
+            self.device
+                .dispatch(&mut encoder, &self.shader, &bound, run.rays);
+            let [counters] = self.device.finish(encoder, [&counters])?;
+            let counters: Vec<u32> = bytemuck::pod_collect_to_vec(&counters);
+            seconds.rays += u64::from(counters[0]);
+            seconds.self_hits += u64::from(counters[1]);
+            seconds.lost += u64::from(counters[2]);
+        }
+        Ok(seconds)
     }
 }
 

@@ -1,12 +1,10 @@
+
 // First rays from points inside a closed mesh, and second rays from where they hit: does the surface that they leave stop them?
 
-struct Task { seed: u32, rays: u32, origins: u32, scheme: u32, value: f32, is_along_ray: u32 }
+struct Task { seed: u32, rays: u32, scheme: u32, value: f32, is_along_ray: u32 }
 struct Counters { rays: atomic<u32>, self_hits: atomic<u32>, lost: atomic<u32> }
 
-@group(0) @binding(0) var scene: acceleration_structure;
-@group(0) @binding(1) var<storage, read> task: Task;
-@group(0) @binding(2) var<storage, read> origins: array<f32>;
-@group(0) @binding(3) var<storage, read> corners: array<f32>;
+@group(0) @binding(3) var<storage, read> task: Task;
 @group(0) @binding(4) var<storage, read_write> counters: Counters;
 
 // Second rays are no flatter than this, as the cosine of their angle with the normal.
@@ -17,24 +15,6 @@ const NORMAL = 1u;
 const ULPS = 2u;
 const WAECHTER_BINDER = 3u;
 const T_MIN = 4u;
-
-fn symmetric() -> f32 { return f32(draw() >> 8u) / 8388608.0 - 1.0; }
-
-// A direction of length 1; the loop gives up after a while, so that it ends on every device.
-fn direction() -> vec3f {
-    var d = vec3f(1.0, 0.0, 0.0);
-    for (var i = 0; i < 32; i++) {
-        let candidate = vec3f(symmetric(), symmetric(), symmetric());
-        let square = dot(candidate, candidate);
-        if square <= 1.0 && square > 0.01 { d = candidate; break; }
-    }
-    return normalize(d);
-}
-
-fn corner(face: u32, which: u32) -> vec3f {
-    let first = 9u * face + 3u * which;
-    return vec3f(corners[first], corners[first + 1u], corners[first + 2u]);
-}
 
 // Wächter and Binder, Ray Tracing Gems, chapter 6.
 fn by_integers(p: f32, n: f32) -> f32 {
@@ -58,12 +38,16 @@ fn start_of(p: vec3f, n: vec3f) -> vec3f {
     }
 }
 
+// A vector whose largest component is 1.
+fn of_size_1(v: vec3f) -> vec3f {
+    return v / max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= task.rays { return; }
-    state = mixed(mixed(id.x) ^ task.seed);
-    let from_point = draw() % task.origins;
-    let origin = vec3f(origins[3u * from_point], origins[3u * from_point + 1u], origins[3u * from_point + 2u]);
+    begin(id.x, task.seed);
+    let origin = origin_inside();
     let first_direction = direction();
 
     var first: ray_query;
@@ -79,15 +63,17 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     let v = hit.barycentrics.y;
     var p = (1.0 - u - v) * a + u * b + v * c;
     if task.is_along_ray != 0u { p = origin + hit.t * first_direction; }
-    var n = normalize(cross(b - a, c - a));
+    var n = normalize(cross(of_size_1(b - a), of_size_1(c - a)));
     if dot(n, first_direction) > 0.0 { n = -n; }
     var second_direction = direction();
     if dot(second_direction, n) < 0.0 { second_direction = -second_direction; }
-    if dot(second_direction, n) < FLATTEST { return; }
+    let start = start_of(p, n);
+    // Neither is true of a normal or a start that is no number.
+    if !(dot(second_direction, n) >= FLATTEST) || !all(abs(start) < vec3f(FAR)) { return; }
     let t_min = select(0.0, task.value, task.scheme == T_MIN);
 
     var second: ray_query;
-    rayQueryInitialize(&second, scene, RayDesc(FORCE_OPAQUE, 0xffu, t_min, FAR, start_of(p, n), second_direction));
+    rayQueryInitialize(&second, scene, RayDesc(FORCE_OPAQUE, 0xffu, t_min, FAR, start, second_direction));
     while rayQueryProceed(&second) {}
     let next = rayQueryGetCommittedIntersection(&second);
     atomicAdd(&counters.rays, 1u);

@@ -20,9 +20,18 @@ pub fn write_json(path: &str, data: &impl Serialize) -> Result<(), Failure> {
     write_file(path, text.as_bytes()).map_err(|error| Failure::of_file(path, &error))
 }
 
-/// Writes a file: beside it, and renamed.
+/// Writes a file: beside it, and renamed. What is no file, as a device or a pipe, is written to; a link stays one.
 pub fn write_file(path: &str, bytes: &[u8]) -> io::Result<()> {
-    let beside = format!("{path}.part");
-    fs::write(&beside, bytes)?;
-    fs::rename(&beside, path)
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.into());
+    if fs::metadata(&place).is_ok_and(|old| !old.is_file()) {
+        return fs::write(place, bytes);
+    }
+    let mut beside = place.clone().into_os_string();
+    beside.push(".part");
+    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, &place));
+    if written.is_err() {
+        // What is left of it helps nobody.
+        let _ = fs::remove_file(&beside);
+    }
+    written
 }

@@ -14,8 +14,6 @@ pub struct Part {
     pub triangles: Vec<Triangle>,
     /// Where they are moved.
     pub translation: [f32; 3],
-    /// The number of the first triangle in the whole mesh.
-    pub first_face: u32,
 }
 
 /// Parts that rays meet together: a top-level structure.
@@ -36,7 +34,6 @@ impl Part {
         Part {
             triangles,
             translation: [0.0; 3],
-            first_face: 0,
         }
     }
 
@@ -123,8 +120,7 @@ pub fn build(
                 update_mode: wgpu::AccelerationStructureUpdateMode::Build,
             });
             for (place, (part, blas)) in scene.iter().zip(bottom.by_ref()).enumerate() {
-                let instance =
-                    wgpu::TlasInstance::new(blas, part.transform(), part.first_face, 0xff);
+                let instance = wgpu::TlasInstance::new(blas, part.transform(), 0, 0xff);
                 tlas[place] = Some(instance);
             }
             tlas

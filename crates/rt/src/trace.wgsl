@@ -23,7 +23,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     while rayQueryProceed(&nearest) {}
     let hit = rayQueryGetCommittedIntersection(&nearest);
     if hit.kind == RAY_QUERY_INTERSECTION_TRIANGLE {
-        found[i] = Found(1u, hit.instance_custom_data + hit.primitive_index, hit.t, hit.barycentrics.x, hit.barycentrics.y, 0u);
+        found[i] = Found(1u, hit.primitive_index, hit.t, hit.barycentrics.x, hit.barycentrics.y, 0u);
     } else {
         found[i] = Found(0u, 0u, 0.0, 0.0, 0.0, 0u);
     }
@@ -36,7 +36,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         let candidate = rayQueryGetCandidateIntersection(&all);
         if candidate.kind == RAY_QUERY_INTERSECTION_TRIANGLE {
             if count < sizes.room {
-                met[i * sizes.room + count] = Met(candidate.instance_custom_data + candidate.primitive_index, candidate.t);
+                met[i * sizes.room + count] = Met(candidate.primitive_index, candidate.t);
             }
             count += 1u;
         }

@@ -6,11 +6,17 @@ use hairline_files::mesh::Mesh;
 use hairline_scene::{Location, Scene};
 use std::collections::BTreeMap;
 
-/// How many points inside rays start at.
-const ORIGINS: usize = 1024;
+/// How many balls inside rays start in.
+const BALLS: usize = 1024;
 
 /// How many points are tried to find them.
 const TRIES: u64 = 200_000;
+
+/// A ball has this share of its middle's distance from the surface as its radius, so that it is inside whatever is rounded.
+const SHARE: f64 = 0.5;
+
+/// A ball of fewer ulps than this is a point.
+const FEWEST_ULPS: f64 = 64.0;
 
 /// Vertices on a grid are multiples of about this share of the mesh's size: 2^-18, so that differences of two are exact in f32.
 const GRID: f64 = 1.0 / 262_144.0;
@@ -20,8 +26,9 @@ pub struct World {
     pub triangles: Vec<Triangle>,
     /// Its exact scene.
     pub scene: Scene<f32>,
-    /// Points that are exactly inside.
-    pub origins: Vec<[f32; 3]>,
+    /// Balls inside: x, y, z of a point that is exactly inside, and the radius.
+    pub balls: Vec<[f32; 4]>,
+    seed: u32,
     vertices: Vec<[f32; 3]>,
     faces: Vec<[u32; 3]>,
     low: [f64; 3],
@@ -29,17 +36,17 @@ pub struct World {
 }
 
 impl World {
-    /// A mesh, scaled. An error if it is not closed, or if no points inside are found.
-    pub fn new(mesh: &Mesh, scale: f64) -> Result<World, String> {
+    /// A mesh, scaled. An error if it is not closed, or if no points inside are found. The seed chooses these.
+    pub fn new(mesh: &Mesh, scale: f64, seed: u32) -> Result<World, String> {
         let scaled = |vertex: &[f64; 3]| vertex.map(|x| (x * scale) as f32);
         let vertices = match scale == 1.0 {
             true => mesh.positions_f32.clone(),
             false => mesh.positions_f64.iter().map(scaled).collect(),
         };
-        World::of(vertices, mesh.triangles.clone())
+        World::of(vertices, mesh.triangles.clone(), seed)
     }
 
-    fn of(vertices: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> Result<World, String> {
+    fn of(vertices: Vec<[f32; 3]>, faces: Vec<[u32; 3]>, seed: u32) -> Result<World, String> {
         let scene = Scene::new(&vertices, &faces).map_err(|error| error.to_string())?;
         if !scene.not_finite().is_empty() {
             return Err("a coordinate is beyond the range of f32".to_owned());
@@ -56,48 +63,62 @@ impl World {
         let mut world = World {
             triangles,
             scene,
-            origins: Vec::new(),
+            balls: Vec::new(),
+            seed,
             vertices,
             faces,
             low,
             high,
         };
-        world.find_origins()?;
+        world.find_balls()?;
         Ok(world)
     }
 
-    /// Finds points in the box of the mesh that are inside.
-    fn find_origins(&mut self) -> Result<(), String> {
+    /// Finds points in the box of the mesh that are inside, and how far the surface is from them.
+    fn find_balls(&mut self) -> Result<(), String> {
         for index in 0..TRIES {
-            let draw = &mut Draw::new("points-inside", 1, index);
+            let draw = &mut Draw::new("points-inside", self.seed.into(), index);
             let point = [0, 1, 2].map(|axis| {
                 let share: f64 = draw.unit();
                 (self.low[axis] + share * (self.high[axis] - self.low[axis])) as f32
             });
             match self.scene.locate(point) {
-                Ok(Location::Off(winding)) if !winding.is_zero() => self.origins.push(point),
+                Ok(Location::Off(winding)) if !winding.is_zero() => {
+                    let [x, y, z] = point;
+                    self.balls.push([x, y, z, self.radius(point)]);
+                }
                 Ok(Location::NotDefined(_)) => {
                     return Err("the surface is open, so rays may leave it".to_owned());
                 }
                 _ => {}
             }
-            if self.origins.len() == ORIGINS {
+            if self.balls.len() == BALLS {
                 break;
             }
         }
-        match self.origins.is_empty() {
+        match self.balls.is_empty() {
             true => Err(format!("none of {TRIES} points in its box is inside")),
             false => Ok(()),
         }
     }
 
-    /// The mesh with its vertices on a grid, which moves them by less than one in 100,000 of its size.
+    fn radius(&self, middle: [f32; 3]) -> f32 {
+        let largest = middle.iter().fold(0.0, |most: f32, x| most.max(x.abs()));
+        let ulp = f64::from(largest.next_up() - largest);
+        match self.scene.distance(middle).map(|distance| SHARE * distance) {
+            Some(radius) if FEWEST_ULPS * ulp < radius => radius as f32,
+            _ => 0.0,
+        }
+    }
+
+    /// The mesh with its vertices on a grid, which moves them by at most 2^-18 of the largest coordinate. An error if it is not closed
+    /// then, or without an inside.
     pub fn on_a_grid(&self) -> Result<World, String> {
         let step = self.step();
         let on_grid =
             |vertex: &[f32; 3]| vertex.map(|x| ((f64::from(x) / step).round() * step) as f32);
         let vertices = self.vertices.iter().map(on_grid).collect();
-        World::of(vertices, self.faces.clone())
+        World::of(vertices, self.faces.clone(), self.seed)
     }
 
     /// The grid's step, a power of two.
@@ -117,23 +138,16 @@ impl World {
                 .or_default()
                 .push(*triangle);
         }
-        let mut first_face = 0;
-        let mut parts = Vec::new();
-        for (tile, triangles) in tiles {
+        let part = |(tile, triangles): ([u32; 3], Vec<Triangle>)| {
             let translation = self.middle_of(tile, a_side);
             let moved = |vertex: [f32; 3]| [0, 1, 2].map(|axis| vertex[axis] - translation[axis]);
-            let count = triangles.len() as u32;
-            parts.push(Part {
-                triangles: triangles
-                    .into_iter()
-                    .map(|triangle| triangle.map(moved))
-                    .collect(),
+            let triangles = triangles.into_iter().map(|triangle| triangle.map(moved));
+            Part {
+                triangles: triangles.collect(),
                 translation,
-                first_face,
-            });
-            first_face += count;
-        }
-        parts
+            }
+        };
+        tiles.into_iter().map(part).collect()
     }
 
     fn tile_of(&self, triangle: &Triangle, a_side: u32) -> [u32; 3] {
@@ -171,7 +185,10 @@ mod tests {
 
     #[test]
     fn tiles_come_back_to_where_they_were() {
-        let world = World::new(&icosphere(), 1.0).unwrap().on_a_grid().unwrap();
+        let world = World::new(&icosphere(), 1.0, 1)
+            .unwrap()
+            .on_a_grid()
+            .unwrap();
         let sorted = |mut triangles: Vec<Triangle>| {
             triangles.sort_by_key(|triangle| triangle.map(|vertex| vertex.map(f32::to_bits)));
             triangles
@@ -195,10 +212,31 @@ mod tests {
     }
 
     #[test]
+    fn balls_are_inside() {
+        let world = World::new(&icosphere(), 1.0, 2).unwrap();
+        assert_eq!(world.balls.len(), BALLS);
+        let mut with_a_size = 0;
+        for &[x, y, z, radius] in &world.balls {
+            with_a_size += usize::from(0.0 < radius);
+            for axis in 0..3 {
+                for side in [-radius, radius] {
+                    let mut point = [x, y, z];
+                    point[axis] += side;
+                    let place = world.scene.locate(point).unwrap();
+                    assert_eq!(place.is_inside_or_on(), Some(true));
+                }
+            }
+        }
+        assert!(BALLS / 2 < with_a_size);
+        let others = World::new(&icosphere(), 1.0, 3).unwrap();
+        assert_ne!(world.balls, others.balls);
+    }
+
+    #[test]
     fn an_open_mesh_is_refused() {
         let mut mesh = icosphere();
         mesh.triangles.pop();
-        let refused = World::new(&mesh, 1.0).err();
+        let refused = World::new(&mesh, 1.0, 1).err();
         assert_eq!(
             refused.as_deref(),
             Some("the surface is open, so rays may leave it")

@@ -11,6 +11,8 @@ use hairline_core::arith::scale_by_power_of_two;
 
 /// A face that lies nearest to a point.
 struct NearestFace {
+    /// The distance, and the same in the units of the tree.
+    away: f64,
     distance: f64,
     /// The distance in longest edges of the face.
     in_edges: f64,
@@ -50,8 +52,17 @@ impl<F: Float> Scene<F> {
         false
     }
 
+    /// The distance of a point from the surface, computed in `f64`. None without a face.
+    pub fn distance(&self, point: [F; 3]) -> Option<f64> {
+        self.nearest_face(point).map(|it| it.away)
+    }
+
     /// The distance of a point from the surface, in longest edges of the face there. None without a face.
     pub(crate) fn distance_in_edges(&self, point: [F; 3]) -> Option<f64> {
+        self.nearest_face(point).map(|it| it.in_edges)
+    }
+
+    fn nearest_face(&self, point: [F; 3]) -> Option<NearestFace> {
         let point = point.map(F::to_f64);
         let scaled = point.map(|x| scale_by_power_of_two(x, self.exponent()));
         let mut nearest: Option<NearestFace> = None;
@@ -83,13 +94,14 @@ impl<F: Float> Scene<F> {
                 let distance = scale_by_power_of_two(away, self.exponent());
                 if nearest.as_ref().is_none_or(|it| distance < it.distance) {
                     nearest = Some(NearestFace {
+                        away,
                         distance,
                         in_edges: away / longest_edge(&triangle),
                     });
                 }
             }
         }
-        nearest.map(|it| it.in_edges)
+        nearest
     }
 
     fn root(&self) -> Vec<Child> {

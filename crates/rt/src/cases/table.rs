@@ -3,6 +3,7 @@
 use crate::structure::Triangle;
 use crate::trace::DeviceRay;
 use hairline_files::InputError;
+use std::collections::HashSet;
 
 /// A test: a ray, and a triangle or a group of them.
 pub struct VectorTest<'a> {
@@ -70,6 +71,7 @@ pub fn read<'a>(name: &str, text: &'a str) -> Result<Vec<VectorTest<'a>>, InputE
     let head = lines.next().map_or("", |(_, head)| head);
     let columns = Columns::read(name, head)?;
     let mut tests: Vec<VectorTest> = Vec::new();
+    let mut ids = HashSet::new();
     for (index, line) in lines {
         let wrong = |message: String| InputError::at(name, index + 1, message);
         let words: Vec<&str> = line.split(',').collect();
@@ -89,11 +91,15 @@ pub fn read<'a>(name: &str, text: &'a str) -> Result<Vec<VectorTest<'a>>, InputE
         let corner = |first: usize| [numbers[first], numbers[first + 1], numbers[first + 2]];
         let triangle = [corner(8), corner(11), corner(14)];
         if words[columns.triangle] != "0" {
-            let test = tests
-                .last_mut()
+            let group = tests.last_mut();
+            let test = group
+                .filter(|test| test.id == words[columns.id])
                 .ok_or_else(|| wrong("a group begins with its second triangle".to_owned()))?;
             test.triangles.push(triangle);
             continue;
+        }
+        if !ids.insert(words[columns.id]) {
+            return Err(wrong(format!("{} is there twice", words[columns.id])));
         }
         tests.push(VectorTest {
             id: words[columns.id],
@@ -225,5 +231,14 @@ mod tests {
         let alone = row("x,1,f32,,hit", ray_along_z());
         let alone = error(&[HEAD, &alone].join("\n"));
         assert_eq!(alone, "core.csv:2: a group begins with its second triangle");
+        let first = row("x,0,f32,,hit", ray_along_z());
+        let other = row("y,1,f32,,hit", ray_along_z());
+        let joined = error(&[HEAD, &first, &other].join("\n"));
+        assert_eq!(
+            joined,
+            "core.csv:3: a group begins with its second triangle"
+        );
+        let twice = error(&[HEAD, &first, &first].join("\n"));
+        assert_eq!(twice, "core.csv:3: x is there twice");
     }
 }

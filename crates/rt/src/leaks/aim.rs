@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::structure::{Build, Part, build};
 use crate::world::World;
 use bytemuck::{Pod, Zeroable};
-use hairline_scene::Ray;
+use hairline_scene::{Passage, Ray, Winding};
 use serde::Serialize;
 
 /// Where rays are aimed.
@@ -34,7 +34,7 @@ pub struct Aimed {
     pub even: u64,
     /// How many of those were decided exactly.
     pub even_decided: u64,
-    /// How many of these cross the mesh only, so that the number has to be odd.
+    /// How many of these cross single layers only, so that the number has to be odd.
     pub must_be_odd: u64,
     /// Lost rays that must hit.
     #[serde(skip)]
@@ -48,7 +48,6 @@ struct Task {
     seed: u32,
     rays: u32,
     faces: u32,
-    origins: u32,
     aim: u32,
     room: u32,
 }
@@ -57,17 +56,13 @@ struct Task {
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct Suspect {
-    origin: u32,
-    count: u32,
-    is_hit: u32,
+    origin: [f32; 3],
     direction: [f32; 3],
+    is_hit: u32,
 }
 
 /// How many suspects of a dispatch are decided: so many lost ones, and so many with an even count.
 const ROOM: usize = 1024;
-
-/// The most rays of a dispatch, so that no driver takes it for a hang.
-const MOST_RAYS: u64 = 1 << 22;
 
 /// Traces aimed rays on a device.
 pub struct Aimer<'a> {
@@ -81,6 +76,7 @@ impl<'a> Aimer<'a> {
     pub fn new(device: &'a Device, rays: u64, seed: u32) -> Aimer<'a> {
         let shader = device.shader(concat!(
             include_str!("../common.wgsl"),
+            include_str!("../inside.wgsl"),
             include_str!("../leaks.wgsl")
         ));
         Aimer {
@@ -89,6 +85,11 @@ impl<'a> Aimer<'a> {
             rays,
             seed,
         }
+    }
+
+    /// The seed of the rays.
+    pub fn seed(&self) -> u32 {
+        self.seed
     }
 
     /// Counts rays at a mesh whose triangles the device has in some parts.
@@ -103,17 +104,14 @@ impl<'a> Aimer<'a> {
         let mut encoder = device.gpu.create_command_encoder(&Default::default());
         let structures = build(device, &mut encoder, &[parts.to_vec()], how)?;
         device.finish(encoder, [])?;
-        let origins = device.storage(&world.origins);
+        let balls = device.storage(&world.balls);
         let corners = device.storage(&world.triangles);
-        let most = MOST_RAYS.min(device.most_invocations() as u64);
         let mut counted = Aimed::default();
-        for run in 0..self.rays.div_ceil(most) {
-            let rays = most.min(self.rays - counted.rays);
+        for run in device.runs(self.rays) {
             let task = Task {
-                seed: self.seed.wrapping_mul(0x9e37_79b9) ^ run as u32,
-                rays: rays as u32,
+                seed: run.seed(self.seed),
+                rays: run.rays,
                 faces: world.triangles.len() as u32,
-                origins: world.origins.len() as u32,
                 aim: aim as u32,
                 room: ROOM as u32,
             };
@@ -122,18 +120,18 @@ impl<'a> Aimer<'a> {
             let suspects = device.zeros::<Suspect>(2 * ROOM);
             let bound = [
                 structures[0].tlas.as_binding(),
-                task.as_entire_binding(),
-                origins.as_entire_binding(),
+                balls.as_entire_binding(),
                 corners.as_entire_binding(),
+                task.as_entire_binding(),
                 counters.as_entire_binding(),
                 suspects.as_entire_binding(),
             ];
             let mut encoder = device.gpu.create_command_encoder(&Default::default());
-            device.dispatch(&mut encoder, &self.shader, &bound, rays as u32);
+            device.dispatch(&mut encoder, &self.shader, &bound, run.rays);
             let [counters, suspects] = device.finish(encoder, [&counters, &suspects])?;
             let counters: Vec<u32> = bytemuck::pod_collect_to_vec(&counters);
             let suspects: Vec<Suspect> = bytemuck::pod_collect_to_vec(&suspects);
-            counted.rays += rays;
+            counted.rays += u64::from(run.rays);
             counted.lost += u64::from(counters[0]);
             counted.even += u64::from(counters[1]);
             for (suspects, count) in suspects.chunks(ROOM).zip(counters) {
@@ -146,9 +144,19 @@ impl<'a> Aimer<'a> {
     }
 }
 
+/// True if the ray passes from one side of a single layer to the other.
+fn is_crossing_of_one_layer(passage: &Passage) -> bool {
+    match passage.around {
+        Ok([Winding::Number(before), Winding::Number(behind)]) => {
+            !passage.is_segment && before.abs_diff(behind) == 1
+        }
+        _ => false,
+    }
+}
+
 impl Aimed {
     fn decide(&mut self, world: &World, suspect: &Suspect) {
-        let ray = Ray::new(world.origins[suspect.origin as usize], suspect.direction);
+        let ray = Ray::new(suspect.origin, suspect.direction);
         if suspect.is_hit == 0 {
             self.decided += 1;
             // A ray that means nothing is none that was made here.
@@ -160,9 +168,7 @@ impl Aimed {
         }
         self.even_decided += 1;
         let passages = world.scene.passages(&ray).unwrap_or_default();
-        let crosses_only = passages
-            .iter()
-            .all(|passage| passage.crosses() == Ok(true) && !passage.is_segment);
+        let crosses_only = passages.iter().all(is_crossing_of_one_layer);
         self.must_be_odd += u64::from(crosses_only && passages.len() % 2 == 1);
     }
 }

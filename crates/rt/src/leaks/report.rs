@@ -69,16 +69,23 @@ impl Scaled {
 impl Leaks {
     /// True if a ray is lost that must hit.
     pub fn any_lost(&self) -> bool {
-        self.rows
-            .iter()
-            .flat_map(|row| &row.aimed)
-            .any(|aimed| aimed.must_hit > 0)
+        self.all().any(|aimed| aimed.must_hit > 0)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Aimed> {
+        let scaled = self.scaled.iter().map(|it| &it.counted);
+        let rows = self.rows.iter().flat_map(|row| &row.aimed);
+        rows.chain(scaled)
     }
 
     /// Lost rays of the mesh as it is, in one structure.
     pub fn lost_rays(&self) -> Vec<Ray<f32>> {
         let aimed = self.rows.iter().take(1).flat_map(|row| &row.aimed);
-        aimed.flat_map(|aimed| aimed.lost_rays.clone()).collect()
+        let mut rays: Vec<Ray<f32>> = aimed.flat_map(|aimed| aimed.lost_rays.clone()).collect();
+        let bits = |ray: &Ray<f32>| [ray.origin, ray.direction].map(|it| it.map(f32::to_bits));
+        rays.sort_by_key(bits);
+        rays.dedup_by_key(|ray| bits(ray));
+        rays
     }
 }
 
@@ -115,17 +122,22 @@ impl fmt::Display for Leaks {
 
 impl Leaks {
     fn fmt_decided(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sum = |number: fn(&Aimed) -> u64| -> u64 {
-            let all = self.rows.iter().flat_map(|row| &row.aimed);
-            all.map(number).sum()
-        };
+        let sum = |number: fn(&Aimed) -> u64| -> u64 { self.all().map(number).sum() };
         let [decided, must_hit] = [sum(|it| it.decided), sum(|it| it.must_hit)];
-        match decided {
-            0 => writeln!(f, "No ray is lost.")?,
-            _ => writeln!(
+        let lost = sum(|it| it.lost);
+        match (lost, lost == decided) {
+            (0, _) => writeln!(f, "No ray is lost.")?,
+            (_, true) => writeln!(
                 f,
-                "Lost: {} of them were decided again, exactly; {} of these must hit.",
+                "Lost: each of these {} rays was decided again, exactly: {} must hit.",
+                group_digits(lost),
+                group_digits(must_hit)
+            )?,
+            (_, false) => writeln!(
+                f,
+                "Lost: {} of these {} rays were decided again, exactly: {} must hit.",
                 group_digits(decided),
+                group_digits(lost),
                 group_digits(must_hit)
             )?,
         }
@@ -141,7 +153,7 @@ impl Leaks {
             writeln!(
                 f,
                 "Even: the ray meets an even number of triangles by the device. {} of them were decided again, exactly; \
-                 {} of these\n      cross the surface and never touch it: a triangle counts twice, or not at all.",
+                 {} of these\n      cross single layers of the surface and touch nothing: a triangle counts twice, or not at all.",
                 group_digits(decided),
                 group_digits(must_be_odd)
             )?;
@@ -191,10 +203,13 @@ impl Leaks {
     }
 }
 
-/// A count as a share, to three digits behind the point.
+/// A count as a share, to three digits behind the point; a few rays as their number.
 fn share(count: u64, of: u64) -> String {
-    match count {
-        0 => "0".to_owned(),
-        _ => format!("{:.3} %", 100.0 * count as f64 / of as f64),
+    let percent = 100.0 * count as f64 / of as f64;
+    match (count, percent < 0.0095) {
+        (0, _) => "0".to_owned(),
+        (1, true) => "1 ray".to_owned(),
+        (_, true) => format!("{} rays", group_digits(count)),
+        (_, false) => format!("{percent:.3} %"),
     }
 }
