@@ -6,10 +6,10 @@ mod report;
 use crate::device::Device;
 use crate::failure::Failure;
 use crate::input::read_mesh;
-use crate::output::{print, write_file, write_json};
+use crate::output::{print, progress, write_file, write_json};
 use crate::structure::{Build, Part};
 use crate::world::World;
-use aim::{Aim, Aimed, Aimer};
+use aim::{Aim, Aimer};
 use clap::ValueHint;
 use hairline_rays::MadeRays;
 use report::{Leaks, Row, Scaled};
@@ -56,29 +56,27 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 
     let whole = vec![Part::of(world.triangles.clone())];
     let mut rows = vec![
-        Row::new(
-            "one structure",
-            aimed(&aimer, &world, &whole, Build::FastTrace)?,
-        ),
-        Row::new(
+        row("one structure", &aimer, &world, &whole, Build::FastTrace)?,
+        row(
             "built for speed of building",
-            aimed(&aimer, &world, &whole, Build::FastBuild)?,
-        ),
+            &aimer,
+            &world,
+            &whole,
+            Build::FastBuild,
+        )?,
     ];
     // A mesh far from the origin may lose its inside on the grid.
     if let Ok(tiled) = world.on_a_grid() {
         let tiles = tiled.tiles(arguments.tiles);
         let name = format!("{} instances with translations", tiles.len());
-        rows.push(Row::new(
-            &name,
-            aimed(&aimer, &tiled, &tiles, Build::FastTrace)?,
-        ));
+        rows.push(row(&name, &aimer, &tiled, &tiles, Build::FastTrace)?);
     }
 
     let scaled = match arguments.scales {
         true => scaled(&aimer, &mesh)?,
         false => Vec::new(),
     };
+    progress("");
     let leaks = Leaks {
         device: device.name(),
         mesh: mesh.name.clone(),
@@ -103,16 +101,19 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
 }
 
 /// Counts of rays at each kind of target.
-fn aimed(
+fn row(
+    name: &str,
     aimer: &Aimer,
     world: &World,
     parts: &[Part],
     build: Build,
-) -> Result<Vec<Aimed>, Failure> {
-    Aim::ALL
-        .iter()
-        .map(|aim| aimer.count(world, parts, build, *aim))
-        .collect()
+) -> Result<Row, Failure> {
+    let mut aimed = Vec::new();
+    for aim in Aim::ALL {
+        progress(&format!("{name}, {aim}"));
+        aimed.push(aimer.count(world, parts, build, aim)?);
+    }
+    Ok(Row::new(name, aimed))
 }
 
 /// Counts of rays at vertices, for the mesh in all sizes.
@@ -123,6 +124,7 @@ fn scaled(aimer: &Aimer, mesh: &hairline_files::mesh::Mesh) -> Result<Vec<Scaled
         let Ok(world) = World::new(mesh, 10f64.powi(exponent), aimer.seed()) else {
             continue;
         };
+        progress(&format!("scaled by 1e{exponent}"));
         let part = Part::of(world.triangles.clone());
         let counted = aimer.count(&world, &[part], Build::FastTrace, Aim::Vertex)?;
         all.push(Scaled { exponent, counted });

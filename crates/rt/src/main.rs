@@ -47,6 +47,7 @@ fn main() -> ExitCode {
     match run(Arguments::parse().command) {
         Ok(code) => code,
         Err(Failure { code, message }) => {
+            output::progress("");
             eprintln!("hairline-rt: {message}");
             ExitCode::from(code)
         }

@@ -3,7 +3,7 @@
 use crate::device::{Device, Shader};
 use crate::failure::Failure;
 use crate::input::read_mesh;
-use crate::output::{print, write_json};
+use crate::output::{print, progress, write_json};
 use crate::structure::{Build, Part, Structure, build};
 use crate::world::World;
 use bytemuck::{Pod, Zeroable};
@@ -170,11 +170,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let mut schemes = Vec::new();
     for &scheme in &arguments.scheme {
+        progress(&scheme.name());
         schemes.push(Counted {
             scheme: scheme.name(),
             points: [traced.count(scheme, false)?, traced.count(scheme, true)?],
         });
     }
+    progress("");
     let offsets = Offsets {
         device: device.name(),
         mesh: mesh.name.clone(),

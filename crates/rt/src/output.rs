@@ -4,7 +4,16 @@ use crate::failure::Failure;
 use serde::Serialize;
 use std::fmt::Display;
 use std::fs;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
+
+/// Says on a terminal what is being done, in a line that the next one replaces; an empty one clears it.
+pub fn progress(doing: &str) {
+    let mut terminal = io::stderr();
+    if terminal.is_terminal() {
+        // Nothing depends on it.
+        let _ = write!(terminal, "\r\x1b[K{doing}");
+    }
+}
 
 /// Prints a text. A reader that has seen enough, as `head`, is no error.
 pub fn print(text: &impl Display) -> Result<(), Failure> {

@@ -8,6 +8,7 @@ mod near;
 mod nearest;
 mod other_epsilon;
 mod page;
+mod row;
 mod verdict;
 
 use crate::arith::ScalarName;

@@ -7,6 +7,7 @@ use crate::world::World;
 use bytemuck::{Pod, Zeroable};
 use hairline_scene::{Passage, Ray, Winding};
 use serde::Serialize;
+use std::fmt;
 
 /// Where rays are aimed.
 #[derive(Clone, Copy)]
@@ -18,6 +19,16 @@ pub enum Aim {
 
 impl Aim {
     pub const ALL: [Aim; 3] = [Aim::Vertex, Aim::Edge, Aim::Face];
+}
+
+impl fmt::Display for Aim {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Aim::Vertex => "at vertices",
+            Aim::Edge => "at edges",
+            Aim::Face => "into faces",
+        })
+    }
 }
 
 /// Counts of rays that were aimed alike.

@@ -1,6 +1,6 @@
 //! The screen of `leaks`.
 
-use super::aim::Aimed;
+use super::aim::{Aim, Aimed};
 use hairline_record::group_digits;
 use hairline_scene::Ray;
 use serde::Serialize;
@@ -103,7 +103,10 @@ impl fmt::Display for Leaks {
         writeln!(
             f,
             "{:34} {:^19} {:^19} {:^19}",
-            "", "at vertices", "at edges", "into faces"
+            "",
+            Aim::Vertex.to_string(),
+            Aim::Edge.to_string(),
+            Aim::Face.to_string()
         )?;
         writeln!(f, "{:34} {}", "", "     lost      even".repeat(3))?;
         for row in &self.rows {
