@@ -41,8 +41,8 @@ const ROOMS: [Room; 18] = [
     room("crates/explore/src", Some("explore"), 29_100),
     room("crates/plugin/src", Some("plugin"), 20_400),
     room("crates/record/src", Some("record"), 23_000),
-    // With captions of drawings in files of their own.
-    room("crates/report/src", Some("report"), 101_100),
+    // With captions of drawings, and rows of an explained case, in files of their own: each has its imports.
+    room("crates/report/src", Some("report"), 101_130),
     // Of issue 62: answers of programs about whole meshes, read and judged, with pictures; most of it came out of src.
     // Then the scene that a program makes first, and transforms of instances as a reason of lost hits.
     room("crates/rays/src", Some("rays"), 36_300),
