@@ -4,7 +4,7 @@ use crate::device::Device;
 use crate::failure::Failure;
 use crate::input::{read_mesh, read_rays, triangles};
 use crate::output::print;
-use crate::structure::{Build, Part, Structure, build};
+use crate::structure::{Build, Part, Structure, build_one};
 use crate::trace::{DeviceRay, Found, Met, Tracer};
 use clap::ValueEnum;
 
@@ -43,13 +43,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let rays = read_rays(&arguments.rays)?;
     let rays: Vec<DeviceRay> = rays.iter().map(DeviceRay::of).collect();
     let device = Device::open()?;
-    let mut encoder = device.gpu.create_command_encoder(&Default::default());
-    let part = Part::of(triangles(&mesh));
-    let structures = build(&device, &mut encoder, &[vec![part]], Build::FastTrace)?;
-    device.finish(encoder, [])?;
+    let whole = [Part::of(triangles(&mesh))];
     let asked = AskedRays {
         tracer: Tracer::new(&device),
-        structure: &structures[0],
+        structure: &build_one(&device, &whole, Build::FastTrace)?,
         rays: &rays,
     };
     print(&match arguments.answered {

@@ -1,5 +1,8 @@
 //! A device with ray queries: opened, and its buffers written, read and dispatched.
 
+// Ray queries are behind two unsafe doors of wgpu.
+#![allow(unsafe_code)]
+
 use crate::failure::Failure;
 use bytemuck::Pod;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -12,7 +15,7 @@ const WORKGROUP: u32 = 64;
 pub struct Device {
     info: wgpu::AdapterInfo,
     pub gpu: wgpu::Device,
-    pub queue: wgpu::Queue,
+    queue: wgpu::Queue,
 }
 
 /// A compute shader that is ready to run.
@@ -62,7 +65,8 @@ impl Device {
             label: Some("hairline-rt"),
             required_features: wgpu::Features::EXPERIMENTAL_RAY_QUERY,
             required_limits: adapter.limits(),
-            // SAFETY: ray queries are used as their specification allows, so an error in wgpu's checks cannot be met.
+            // SAFETY: wgpu calls ray queries experimental since its checks of them may have gaps. What is asked here is what their
+            // specification allows.
             experimental_features: unsafe { wgpu::ExperimentalFeatures::enabled() },
             ..Default::default()
         };
@@ -93,8 +97,8 @@ impl Device {
             label: Some("hairline-rt"),
             source: wgpu::ShaderSource::Wgsl(wgsl.into()),
         };
-        // SAFETY: the shaders of this crate stay inside their buffers, and every loop of them ends. With wgpu's checks the
-        // driver would not be asked what the shader says.
+        // SAFETY: the shaders of this crate stay inside their buffers, as far as the driver names faces that exist, and every loop of
+        // them ends. With wgpu's checks the driver would not be asked what the shader says.
         let module = unsafe {
             self.gpu
                 .create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked())
@@ -114,10 +118,15 @@ impl Device {
 
     /// A buffer that shaders read and write, with its contents.
     pub fn storage<T: Pod>(&self, contents: &[T]) -> Buffer {
+        self.buffer(contents, BufferUsages::STORAGE | BufferUsages::COPY_SRC)
+    }
+
+    /// A buffer with its contents.
+    pub fn buffer<T: Pod>(&self, contents: &[T], usage: BufferUsages) -> Buffer {
         self.gpu.create_buffer_init(&BufferInitDescriptor {
             label: None,
             contents: bytemuck::cast_slice(contents),
-            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC,
+            usage,
         })
     }
 

@@ -6,16 +6,20 @@ use hairline_files::mesh::{self, Mesh};
 use hairline_rays::{RaysScalar, Text};
 use hairline_scene::Ray;
 use std::fs::{self, File};
-use std::io::{BufReader, Read};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 /// Reads a mesh. An error also if a number is beyond the range of f32, which is all that a GPU takes.
 pub fn read_mesh(path: &str) -> Result<Mesh, Failure> {
     let file = BufReader::new(open(path)?);
     let mut file_beside = |name: &str, most: u64| {
+        let beside = Path::new(path).with_file_name(name);
+        // The mesh names it, not the user: no pipe, no device.
+        if !fs::metadata(&beside)?.is_file() {
+            return Err(io::Error::other("not a file"));
+        }
         let mut bytes = Vec::new();
-        let file = File::open(Path::new(path).with_file_name(name))?;
-        file.take(most).read_to_end(&mut bytes)?;
+        File::open(beside)?.take(most).read_to_end(&mut bytes)?;
         Ok(bytes)
     };
     let mesh = mesh::read(file, path, &mut file_beside, &mut |_| {})?;

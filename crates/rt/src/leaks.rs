@@ -1,4 +1,4 @@
-//! `hairline-rt leaks`: rays from inside a closed mesh that a device lets out, each decided exactly.
+//! `hairline-rt leaks`: rays from inside a closed mesh that a device lets out, decided again exactly.
 
 mod aim;
 mod report;
@@ -7,7 +7,7 @@ use crate::device::Device;
 use crate::failure::Failure;
 use crate::input::read_mesh;
 use crate::output::{print, progress, write_file, write_json};
-use crate::structure::{Build, Part};
+use crate::structure::{Build, Part, build_one};
 use crate::world::World;
 use aim::{Aim, Aimer};
 use clap::ValueHint;
@@ -17,8 +17,8 @@ use std::process::ExitCode;
 
 /// Rays from inside a closed mesh that the device lets out, or hits twice
 ///
-/// Origins are points that are exactly inside, so each ray has to meet the mesh, an odd number of times where it crosses it only.
-/// Lost rays are decided again, exactly. Ends with 1 if rays are lost.
+/// Rays start inside, so each has to meet the mesh, an odd number of times where it only crosses it. The first lost rays are decided
+/// again, exactly. Ends with 1 if one of these has to hit.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// A closed mesh: OBJ, PLY, STL or glTF; numbers are rounded to f32
@@ -54,12 +54,20 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let world = World::new(&mesh, 1.0, arguments.seed)
         .map_err(|why| Failure::data(format!("{}: {why}", mesh.name)))?;
 
-    let whole = vec![Part::of(world.triangles.clone())];
+    let whole = [Part::of(world.triangles.clone())];
+    let counted = |name: &str, world: &World, parts: &[Part], how: Build| {
+        let structure = build_one(&device, parts, how)?;
+        let mut aimed = Vec::new();
+        for aim in Aim::ALL {
+            progress(&format!("{name}, {aim}"));
+            aimed.push(aimer.count(world, &structure, aim)?);
+        }
+        Ok::<Row, Failure>(Row::new(name, aimed))
+    };
     let mut rows = vec![
-        row("one structure", &aimer, &world, &whole, Build::FastTrace)?,
-        row(
+        counted("one structure", &world, &whole, Build::FastTrace)?,
+        counted(
             "built for speed of building",
-            &aimer,
             &world,
             &whole,
             Build::FastBuild,
@@ -69,13 +77,21 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     if let Ok(tiled) = world.on_a_grid() {
         let tiles = tiled.tiles(arguments.tiles);
         let name = format!("{} instances with translations", tiles.len());
-        rows.push(row(&name, &aimer, &tiled, &tiles, Build::FastTrace)?);
+        rows.push(counted(&name, &tiled, &tiles, Build::FastTrace)?);
     }
 
-    let scaled = match arguments.scales {
-        true => scaled(&aimer, &mesh)?,
-        false => Vec::new(),
-    };
+    let mut scaled = Vec::new();
+    for exponent in EXPONENTS.filter(|_| arguments.scales) {
+        progress(&format!("scaled by 1e{exponent}"));
+        // A size at which numbers of f32 do not hold the mesh is no fault of the device.
+        let Ok(world) = World::new(&mesh, 10f64.powi(exponent), arguments.seed) else {
+            continue;
+        };
+        let whole = [Part::of(world.triangles.clone())];
+        let structure = build_one(&device, &whole, Build::FastTrace)?;
+        let counted = aimer.count(&world, &structure, Aim::Vertex)?;
+        scaled.push(Scaled { exponent, counted });
+    }
     progress("");
     let leaks = Leaks {
         device: device.name(),
@@ -98,36 +114,4 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         write_json(path, &leaks)?;
     }
     Ok(ExitCode::from(u8::from(leaks.any_lost())))
-}
-
-/// Counts of rays at each kind of target.
-fn row(
-    name: &str,
-    aimer: &Aimer,
-    world: &World,
-    parts: &[Part],
-    build: Build,
-) -> Result<Row, Failure> {
-    let mut aimed = Vec::new();
-    for aim in Aim::ALL {
-        progress(&format!("{name}, {aim}"));
-        aimed.push(aimer.count(world, parts, build, aim)?);
-    }
-    Ok(Row::new(name, aimed))
-}
-
-/// Counts of rays at vertices, for the mesh in all sizes.
-fn scaled(aimer: &Aimer, mesh: &hairline_files::mesh::Mesh) -> Result<Vec<Scaled>, Failure> {
-    let mut all = Vec::new();
-    for exponent in EXPONENTS {
-        // A size at which numbers of f32 do not hold the mesh is no fault of the device.
-        let Ok(world) = World::new(mesh, 10f64.powi(exponent), aimer.seed()) else {
-            continue;
-        };
-        progress(&format!("scaled by 1e{exponent}"));
-        let part = Part::of(world.triangles.clone());
-        let counted = aimer.count(&world, &[part], Build::FastTrace, Aim::Vertex)?;
-        all.push(Scaled { exponent, counted });
-    }
-    Ok(all)
 }

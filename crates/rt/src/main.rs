@@ -1,5 +1,7 @@
 //! `hairline-rt`: asks a GPU's own ray tracing, through ray queries of wgpu, and writes what hairline judges.
 
+#![deny(unsafe_code)]
+
 mod device;
 mod failure;
 mod input;

@@ -4,7 +4,7 @@ use crate::device::{Device, Shader};
 use crate::failure::Failure;
 use crate::input::read_mesh;
 use crate::output::{print, progress, write_json};
-use crate::structure::{Build, Part, Structure, build};
+use crate::structure::{Build, Part, Structure, build_one};
 use crate::world::World;
 use bytemuck::{Pod, Zeroable};
 use clap::ValueHint;
@@ -153,10 +153,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let world = World::new(&mesh, 1.0, arguments.seed);
     let world = world.map_err(|why| Failure::data(format!("{}: {why}", mesh.name)))?;
     let device = Device::open()?;
-    let mut encoder = device.gpu.create_command_encoder(&Default::default());
-    let whole = vec![Part::of(world.triangles.clone())];
-    let structures = build(&device, &mut encoder, &[whole], Build::FastTrace)?;
-    device.finish(encoder, [])?;
+    let whole = [Part::of(world.triangles.clone())];
     let traced = Traced {
         shader: device.shader(concat!(
             include_str!("common.wgsl"),
@@ -164,7 +161,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             include_str!("offsets.wgsl")
         )),
         device: &device,
-        structure: &structures[0],
+        structure: &build_one(&device, &whole, Build::FastTrace)?,
         world: &world,
         arguments,
     };

@@ -8,7 +8,6 @@ use wgpu::{AccelerationStructureFlags, AccelerationStructureGeometryFlags};
 pub type Triangle = [[f32; 3]; 3];
 
 /// Triangles under one translation: a bottom-level structure, and its only instance.
-#[derive(Clone)]
 pub struct Part {
     /// The triangles, before they are moved.
     pub triangles: Vec<Triangle>,
@@ -44,18 +43,26 @@ impl Part {
     }
 }
 
+/// Builds one structure.
+pub fn build_one(device: &Device, parts: &[Part], how: Build) -> Result<Structure, Failure> {
+    let mut encoder = device.gpu.create_command_encoder(&Default::default());
+    let mut structures = build(device, &mut encoder, &[parts], how)?;
+    device.finish(encoder, [])?;
+    Ok(structures.remove(0))
+}
+
 /// Builds many structures, each of some parts, at once.
 pub fn build(
     device: &Device,
     encoder: &mut wgpu::CommandEncoder,
-    scenes: &[Vec<Part>],
+    scenes: &[&[Part]],
     build: Build,
 ) -> Result<Vec<Structure>, Failure> {
     let flags = match build {
         Build::FastTrace => AccelerationStructureFlags::PREFER_FAST_TRACE,
         Build::FastBuild => AccelerationStructureFlags::PREFER_FAST_BUILD,
     };
-    let parts: Vec<&Part> = scenes.iter().flatten().collect();
+    let parts: Vec<&Part> = scenes.iter().copied().flatten().collect();
     let most = device.gpu.limits().max_blas_primitive_count as usize;
     if let Some(part) = parts.iter().find(|part| most < part.triangles.len()) {
         return Err(Failure::data(format!(
@@ -68,14 +75,7 @@ pub fn build(
         .flat_map(|part| &part.triangles)
         .copied()
         .collect();
-    let buffer = wgpu::util::DeviceExt::create_buffer_init(
-        &device.gpu,
-        &wgpu::util::BufferInitDescriptor {
-            label: Some("vertices"),
-            contents: bytemuck::cast_slice(&corners),
-            usage: wgpu::BufferUsages::BLAS_INPUT,
-        },
-    );
+    let buffer = device.buffer(&corners, wgpu::BufferUsages::BLAS_INPUT);
     let sizes: Vec<_> = parts.iter().map(|part| size_of_part(part)).collect();
     let bottoms: Vec<wgpu::Blas> = sizes
         .iter()

@@ -2,7 +2,7 @@
 
 use crate::device::{Device, Shader};
 use crate::failure::Failure;
-use crate::structure::{Build, Part, build};
+use crate::structure::Structure;
 use crate::world::World;
 use bytemuck::{Pod, Zeroable};
 use hairline_scene::{Passage, Ray, Winding};
@@ -98,23 +98,9 @@ impl<'a> Aimer<'a> {
         }
     }
 
-    /// The seed of the rays.
-    pub fn seed(&self) -> u32 {
-        self.seed
-    }
-
-    /// Counts rays at a mesh whose triangles the device has in some parts.
-    pub fn count(
-        &self,
-        world: &World,
-        parts: &[Part],
-        how: Build,
-        aim: Aim,
-    ) -> Result<Aimed, Failure> {
+    /// Counts rays at a mesh that the device has as a structure.
+    pub fn count(&self, world: &World, structure: &Structure, aim: Aim) -> Result<Aimed, Failure> {
         let device = self.device;
-        let mut encoder = device.gpu.create_command_encoder(&Default::default());
-        let structures = build(device, &mut encoder, &[parts.to_vec()], how)?;
-        device.finish(encoder, [])?;
         let balls = device.storage(&world.balls);
         let corners = device.storage(&world.triangles);
         let mut counted = Aimed::default();
@@ -130,7 +116,7 @@ impl<'a> Aimer<'a> {
             let counters = device.zeros::<u32>(2);
             let suspects = device.zeros::<Suspect>(2 * ROOM);
             let bound = [
-                structures[0].tlas.as_binding(),
+                structure.tlas.as_binding(),
                 balls.as_entire_binding(),
                 corners.as_entire_binding(),
                 task.as_entire_binding(),
