@@ -13,6 +13,7 @@ mod case_forms;
 mod check;
 mod claims;
 mod cli;
+mod devices;
 mod diff;
 mod epsilon;
 #[cfg(unix)]

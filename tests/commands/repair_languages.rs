@@ -1,6 +1,6 @@
 //! `hairline repair`: what it writes in other languages than C, and of kernels of one's own.
 
-use crate::program::{ends, hairline, scratch};
+use crate::program::{ends, scratch};
 use crate::repair::{INTERVAL, LINE, tried};
 use crate::tools::{has, not_tested};
 use hairline::internals::arith::Vector;
@@ -262,97 +262,4 @@ fn a_kernel_of_ones_own_is_guarded_in_the_same_way() {
         1_000 < hits && 30_000 < misses && 10_000 < asks,
         "{hits} {misses} {asks}"
     );
-}
-
-/// Wrong hits where an ask is a miss, and wrong misses where it is a hit, of a shader on a driver of this machine; none without
-/// a driver.
-fn wrong_on_a_device(folder: &Path, file: &Path) -> Option<[u64; 2]> {
-    let home = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/gpu");
-    let program = Path::new(home).join("target/debug/hairline-gpu-example");
-    let written = |path: &Path| fs::metadata(path).and_then(|it| it.modified()).ok();
-    let mut sources = fs::read_dir(Path::new(home).join("src")).unwrap();
-    if sources.any(|source| written(&program) < written(&source.unwrap().path())) {
-        not_tested("shaders on a device: cargo build --manifest-path examples/gpu/Cargo.toml");
-        return None;
-    }
-    let mut wrong = [0; 2];
-    for (count, [ask, finding]) in wrong
-        .iter_mut()
-        .zip([["miss", "false_hits"], ["hit", "false_misses"]])
-    {
-        let command = format!("{} {} {ask}", program.display(), file.display());
-        let all = [
-            "audit",
-            "--kernel-cmd",
-            &command,
-            "--scalar",
-            "f32",
-            "-n",
-            "1000",
-            "--attribute",
-        ];
-        let output = hairline(
-            folder,
-            &[&all[..], &["0", "--format", "json", "-q"]].concat(),
-        );
-        let error = String::from_utf8_lossy(&output.stderr);
-        if error.contains("no GPU adapter") || error.contains("glslangValidator: No such file") {
-            not_tested(
-                "shaders on a device: no driver or no compiler (Debian: mesa-vulkan-drivers, glslang-tools)",
-            );
-            return None;
-        }
-        assert_eq!(output.status.code(), Some(0), "{error}");
-        let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        let results = record["result"]["results"].as_array().unwrap();
-        let sum = |of: &dyn Fn(&serde_json::Value) -> Option<u64>| -> u64 {
-            results
-                .iter()
-                .map(|result| of(&result["total"]).unwrap())
-                .sum()
-        };
-        // It does hit, and it does miss.
-        let (hits, cases) = (
-            sum(&|it| it["hits"].as_u64()),
-            sum(&|it| it["cases"].as_u64()),
-        );
-        assert!(
-            cases / 20 < hits && hits < cases * 9 / 10,
-            "{hits} of {cases}"
-        );
-        *count = sum(&|it| it[finding]["count"].as_u64());
-    }
-    Some(wrong)
-}
-
-#[test]
-fn shaders_on_a_driver_are_right_and_without_margins_they_are_not() {
-    let folder = scratch("repair-devices");
-    for kernel in ["moller-trumbore", "woop-watertight"] {
-        for language in ["wgsl", "glsl"] {
-            let name = format!("{kernel}.{language}");
-            ends(
-                &folder,
-                &[
-                    "repair", "--kernel", kernel, "--emit", language, "-o", &name,
-                ],
-                0,
-            );
-            let file = folder.join(&name);
-            let Some(wrong) = wrong_on_a_device(&folder, &file) else {
-                return;
-            };
-            assert_eq!(wrong, [0, 0], "{name}");
-            let text = fs::read_to_string(&file).unwrap();
-            let margin = "margin = factor * size + ";
-            assert!(text.contains(margin), "{text}");
-            fs::write(
-                &file,
-                text.replace(margin, "margin = 0.0 * factor * size + "),
-            )
-            .unwrap();
-            let [hits, misses] = wrong_on_a_device(&folder, &file).unwrap();
-            assert!(0 < hits && 0 < misses, "{name}: {hits} {misses}");
-        }
-    }
 }

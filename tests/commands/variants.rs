@@ -31,15 +31,22 @@ fn of<'a>(result: &'a Value, kernel: &str) -> Vec<&'a Value> {
 fn one_row_an_arithmetic_side_by_side_each_with_its_own_name() {
     let result = audit(&[
         "--kernel=moller-trumbore,cramer",
-        "--arithmetic=ieee,fma,ftz,fma-ftz",
+        "--arithmetic=ieee,fma,ftz,fma-ftz,lavapipe,nvidia-vulkan",
         "--scalar=f32",
         "--family=edge-near",
         "-n500",
     ]);
     let names = |kernel: &str| {
-        ["", "+fma", "+ftz", "+fma-ftz"]
-            .map(|suffix| format!("{kernel}{suffix}"))
-            .to_vec()
+        [
+            "",
+            "+fma",
+            "+ftz",
+            "+fma-ftz",
+            "+lavapipe",
+            "+nvidia-vulkan",
+        ]
+        .map(|suffix| format!("{kernel}{suffix}"))
+        .to_vec()
     };
     let rows: Vec<&str> = result["plan"]["rows"]
         .as_array()
@@ -58,13 +65,23 @@ fn one_row_an_arithmetic_side_by_side_each_with_its_own_name() {
             "-n500",
         ])
     };
-    for name in ["moller-trumbore", "moller-trumbore+fma", "cramer+fma-ftz"] {
+    for name in [
+        "moller-trumbore",
+        "moller-trumbore+fma",
+        "cramer+fma-ftz",
+        "moller-trumbore+lavapipe",
+    ] {
         assert_eq!(of(&alone(name), name), of(&result, name));
     }
     let plain = of(&result, "moller-trumbore")[0];
-    assert_ne!(
-        plain["total"],
-        of(&result, "moller-trumbore+fma")[0]["total"]
+    for other in ["fma", "lavapipe"] {
+        let other = of(&result, &format!("moller-trumbore+{other}"))[0];
+        assert_ne!(plain["total"], other["total"]);
+    }
+    // No sum of Cramer's rule has a factor in both terms.
+    assert_eq!(
+        of(&result, "cramer")[0]["total"],
+        of(&result, "cramer+lavapipe")[0]["total"]
     );
     // Nothing near the boundary of moderate triangles is subnormal.
     assert_eq!(
@@ -192,7 +209,8 @@ fn the_other_commands_take_a_variant_by_its_name() {
         "{out}"
     );
     let (out, _) = ends(&folder, &["list", "arithmetics"], 0);
-    assert_eq!(out.lines().count(), 4);
+    let names = out.lines().filter(|line| !line.starts_with(' '));
+    assert_eq!(names.count(), 6);
 }
 
 #[test]
@@ -207,7 +225,9 @@ fn unknown_and_impossible_arithmetics_are_refused_in_one_line() {
     };
     let error = refused(&["--kernel=cramer", "--arithmetic=fma,half"]);
     assert!(
-        error.contains("unknown arithmetic 'half': there are ieee, fma, ftz and fma-ftz"),
+        error.contains(
+            "unknown arithmetic 'half': there are ieee, fma, ftz, fma-ftz, lavapipe, nvidia-vulkan"
+        ),
         "{error}"
     );
     let error = refused(&["--kernel=cramer", "--arithmetic=fma,fma"]);

@@ -1,5 +1,5 @@
-//! Other machines' arithmetic: fused products against exact rationals, flushing against its
-//! definition, and what both do to kernels.
+//! Other machines' arithmetic: fused products against exact rationals, flushing and rearranging against their
+//! definitions.
 
 use hairline::internals::arith::{
     Arithmetic, Emulated, Float, Real, Triple, Vector, scale_by_power_of_two,
@@ -279,4 +279,94 @@ fn epsilons_below_the_normal_numbers_are_zero_where_subnormal_numbers_are() {
         [below(1.0), below(-f32::MIN_POSITIVE)],
         [1f32.next_down(), (-f32::MIN_POSITIVE).next_down()]
     );
+}
+
+/// Sums that become others, and sums that only look as if they did.
+fn sums_are_rearranged<F: Float>(arithmetic: Arithmetic) {
+    let (mut changed, mut undone) = (0, 0);
+    for index in 0..3_000 {
+        let mut draw = Draw::new("rearranged", 1, index);
+        let [a, b, h] = factors_and_term::<F>(&mut draw).map(|x| arithmetic.flush(x));
+        let flushed = |x: F| arithmetic.flush(x);
+        let product = |a: F, b: F| flushed(a * b);
+        let sum = flushed(a + b);
+        let new = || numbers([a, b, h], arithmetic);
+        let check = |found: Emulated<F>, expected: F, what: &str| {
+            let found = found.value();
+            let same = found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan();
+            let told = format!("{arithmetic} {} {what}: {a:e} {b:e} {h:e}", F::NAME);
+            assert!(same, "{told}: {found:e}, expected {expected:e}");
+        };
+        let [x, y, z] = new();
+        check(x * &z + y * &z, product(sum, h), "a*h + b*h");
+        let [x, y, z] = new();
+        check(z.clone() * x + y * z, product(sum, h), "h*a + b*h");
+        let [x, y, z] = new();
+        check(-x * &z + y * z, product(flushed(b - a), h), "-a*h + b*h");
+        // Names of products make no difference.
+        let [x, y, z] = new();
+        let [u, v] = [x * &z, y * &z];
+        check(u.clone() + &v, product(sum, h), "u + v");
+        check(u + &v, product(sum, h), "u + v again");
+        // The factor may be an expression that is written twice.
+        let [x, y, z] = new();
+        let inverse = || Emulated::one() / &z;
+        let expected = product(sum, flushed(F::one() / h));
+        check(x * inverse() + y * inverse(), expected, "a*(1/h) + b*(1/h)");
+        let [x, y, z] = new();
+        check((x.clone() + &y) - &x, b, "(a + b) - a");
+        check((x.clone() - &y) - &x, -b, "(a - b) - a");
+        check((x.clone() - &y) + &y, a, "(a - b) + b");
+        // No rule looks through a minus.
+        check(
+            x.clone() - (x.clone() + &y),
+            flushed(a - sum),
+            "a - (a + b)",
+        );
+        let two_products = |a: F, b: F| match arithmetic.fused {
+            true => flushed(a.mul_add(h, product(b, h))),
+            false => flushed(product(a, h) + product(b, h)),
+        };
+        check(x * &z - y * &z, two_products(a, -b), "a*h - b*h");
+        let [x, y, z] = new();
+        check(x * &z + y * -z, two_products(a, -b), "a*h + b*-h");
+        // Equal values are not the same expression.
+        let [x, y, z] = new();
+        let [_, _, equal] = new();
+        let apart = two_products(a, b);
+        check(x * z + y * equal, apart, "a*h + b*k, h = k");
+        let [x, y, _] = new();
+        let [other, ..] = new();
+        check((x + &y) - &other, flushed(sum - a), "(a + b) - c, a = c");
+        changed += usize::from(apart != product(sum, h));
+        undone += usize::from(sum - a != b);
+    }
+    assert!(changed > 150 && undone > 300, "{changed} {undone}");
+}
+
+#[test]
+fn sums_are_rearranged_by_their_expressions_in_either_scalar() {
+    for arithmetic in [Arithmetic::LAVAPIPE, Arithmetic::NVIDIA_VULKAN] {
+        sums_are_rearranged::<f32>(arithmetic);
+        sums_are_rearranged::<f64>(arithmetic);
+    }
+}
+
+#[test]
+fn what_only_looks_alike_stays() {
+    let [a, b, h] = [0.3f32, 0.4, 0.3];
+    let new = || numbers([a, b, h], Arithmetic::LAVAPIPE);
+    // Roots, absolute values, and numbers just below others are no factors of their own number.
+    let [x, y, z] = new();
+    let roots = x * z.abs() + y * &z;
+    assert_eq!(roots.value(), a * h + b * h);
+    let [x, y, z] = new();
+    let below = x * z.just_below() + y * &z;
+    assert_eq!(below.value(), a * h.next_down() + b * h);
+    let [x, y, z] = new();
+    assert_eq!((x / &z + y / &z).value(), a / h + b / h);
+    // Without the liberty nothing is rearranged.
+    let [x, y, z] = numbers([a, b, h], Arithmetic::IEEE);
+    assert_eq!((x * &z + y * &z).value(), a * h + b * h);
+    assert_ne!(a * h + b * h, (a + b) * h);
 }

@@ -1,5 +1,5 @@
 
-// Rays that start inside a closed mesh, at random; it stands before the shaders that make them.
+// Points inside a closed mesh, at random; it stands before the shaders that make rays of them.
 
 // A ball inside the mesh: its middle and its radius.
 struct Ball { x: f32, y: f32, z: f32, radius: f32 }
@@ -51,7 +51,7 @@ fn direction() -> vec3f {
     return vec3f(1.0, 0.0, 0.0);
 }
 
-fn origin_inside() -> vec3f {
+fn point_inside() -> vec3f {
     let ball = balls[draw() % arrayLength(&balls)];
     return vec3f(ball.x, ball.y, ball.z) + ball.radius * in_unit_ball();
 }

@@ -9,15 +9,16 @@ use crate::input::read_mesh;
 use crate::output::{print, progress, write_file, write_json};
 use crate::structure::{Build, Part, build_one};
 use crate::world::World;
-use aim::{Aim, Aimer};
+use aim::{Aim, Aimer, Start};
 use clap::ValueHint;
 use hairline_rays::MadeRays;
-use report::{Leaks, Row, Scaled};
+use report::{FromAfar, Leaks, Row, Scaled};
 use std::process::ExitCode;
 
 /// Rays from inside a closed mesh that the device lets out, or hits twice
 ///
-/// Rays start inside, so each has to meet the mesh, an odd number of times where it only crosses it. The first lost rays are decided
+/// Rays start inside, so each has to meet the mesh, an odd number of times where it only crosses it. With --far they also come from
+/// outside. The first lost rays are decided
 /// again, exactly. Ends with 1 if one of these has to hit.
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -36,6 +37,9 @@ pub struct Arguments {
     /// The mesh in all sizes too: scaled by 1e-44 to 1e37
     #[arg(long)]
     scales: bool,
+    /// Rays from outside too, that start 1 to 100,000 times the size of the mesh away
+    #[arg(long)]
+    far: bool,
     /// Writes lost rays of the mesh as it is into a file for `hairline rays MESH FILE`
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     lost: Option<String>,
@@ -43,6 +47,9 @@ pub struct Arguments {
     #[arg(short, long, value_hint = ValueHint::FilePath)]
     output: Option<String>,
 }
+
+/// How far away rays start, in sizes of the mesh.
+const SIZES_AWAY: [f32; 6] = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5];
 
 /// The powers of ten that meshes are scaled by.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -44..=37;
@@ -60,7 +67,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         let mut aimed = Vec::new();
         for aim in Aim::ALL {
             progress(&format!("{name}, {aim}"));
-            aimed.push(aimer.count(world, &structure, aim)?);
+            aimed.push(aimer.count(world, &structure, aim, Start::Inside)?);
         }
         Ok::<Row, Failure>(Row::new(name, aimed))
     };
@@ -80,6 +87,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         rows.push(counted(&name, &tiled, &tiles, Build::FastTrace)?);
     }
 
+    let mut from_afar = Vec::new();
+    for sizes in SIZES_AWAY.into_iter().filter(|_| arguments.far) {
+        let distance = sizes * world.size();
+        // Where rays are rounded by more than there is room inside, none of them surely meets the mesh.
+        if !distance.is_finite() || world.balls_seen_from(distance).is_empty() {
+            continue;
+        }
+        progress(&format!("from {sizes} times its size away"));
+        let structure = build_one(&device, &whole, Build::FastTrace)?;
+        let counted = aimer.count(&world, &structure, Aim::Vertex, Start::Away(distance))?;
+        from_afar.push(FromAfar { sizes, counted });
+    }
     let mut scaled = Vec::new();
     for exponent in EXPONENTS.filter(|_| arguments.scales) {
         progress(&format!("scaled by 1e{exponent}"));
@@ -89,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         };
         let whole = [Part::of(world.triangles.clone())];
         let structure = build_one(&device, &whole, Build::FastTrace)?;
-        let counted = aimer.count(&world, &structure, Aim::Vertex)?;
+        let counted = aimer.count(&world, &structure, Aim::Vertex, Start::Inside)?;
         scaled.push(Scaled { exponent, counted });
     }
     progress("");
@@ -100,6 +119,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         rays: arguments.count,
         seed: arguments.seed,
         rows,
+        from_afar,
         scaled,
     };
     print(&leaks)?;

@@ -1,7 +1,8 @@
 
-// Rays from inside a closed mesh, aimed at its vertices, edges or faces: each has to meet it.
+// Rays at the vertices, edges or faces of a closed mesh, from inside, or through them from outside: each has to meet the mesh.
 
-struct Task { seed: u32, rays: u32, faces: u32, aim: u32, room: u32 }
+// Rays from outside start at a distance, those from inside have none.
+struct Task { seed: u32, rays: u32, faces: u32, aim: u32, room: u32, distance: f32 }
 struct Suspect { ox: f32, oy: f32, oz: f32, dx: f32, dy: f32, dz: f32, is_hit: u32 }
 struct Counters { lost: atomic<u32>, even: atomic<u32> }
 
@@ -36,18 +37,27 @@ fn target_point() -> vec3f {
 fn main(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= task.rays { return; }
     begin(id.x, task.seed);
-    let origin = origin_inside();
-    let direction = target_point() - origin;
-    if all(direction == vec3f(0.0)) { return; }
+    let inside = point_inside();
+    let to_target = target_point() - inside;
+    if all(to_target == vec3f(0.0)) { return; }
+    var origin = inside;
+    var direction = to_target;
+    var last = FAR;
+    if task.distance > 0.0 {
+        origin = inside + task.distance * normalize(to_target);
+        direction = inside - origin;
+        // Only as far as the point inside: what lies behind it would hide a loss.
+        last = 1.0;
+    }
 
     var nearest: ray_query;
-    rayQueryInitialize(&nearest, scene, RayDesc(FORCE_OPAQUE, 0xffu, 0.0, FAR, origin, direction));
+    rayQueryInitialize(&nearest, scene, RayDesc(FORCE_OPAQUE, 0xffu, 0.0, last, origin, direction));
     while rayQueryProceed(&nearest) {}
     let is_hit = rayQueryGetCommittedIntersection(&nearest).kind != RAY_QUERY_INTERSECTION_NONE;
 
     var all_hits: ray_query;
     var count = 0u;
-    rayQueryInitialize(&all_hits, scene, RayDesc(FORCE_NO_OPAQUE, 0xffu, 0.0, FAR, origin, direction));
+    rayQueryInitialize(&all_hits, scene, RayDesc(FORCE_NO_OPAQUE, 0xffu, 0.0, last, origin, direction));
     while rayQueryProceed(&all_hits) {
         let kind = rayQueryGetCandidateIntersection(&all_hits).kind;
         if kind == RAY_QUERY_INTERSECTION_TRIANGLE { count += 1u; }
@@ -58,7 +68,7 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     if !is_hit {
         let place = atomicAdd(&counters.lost, 1u);
         if place < task.room { suspects[place] = suspect; }
-    } else if count % 2u == 0u {
+    } else if task.distance == 0.0 && count % 2u == 0u {
         let place = atomicAdd(&counters.even, 1u);
         if place < task.room { suspects[task.room + place] = suspect; }
     }

@@ -47,7 +47,7 @@ fn of_size_1(v: vec3f) -> vec3f {
 fn main(@builtin(global_invocation_id) id: vec3u) {
     if id.x >= task.rays { return; }
     begin(id.x, task.seed);
-    let origin = origin_inside();
+    let origin = point_inside();
     let first_direction = direction();
 
     var first: ray_query;

@@ -102,6 +102,21 @@ impl World {
         }
     }
 
+    /// The balls that a ray does not miss which starts so far away and passes their middle but for rounding. A ray's origin and
+    /// direction are rounded, to 2^-24 of the distance in each coordinate.
+    pub fn balls_seen_from(&self, distance: f32) -> Vec<[f32; 4]> {
+        let least = distance / 2f32.powi(22);
+        let mut seen = self.balls.clone();
+        seen.retain(|[_, _, _, radius]| least <= *radius);
+        seen
+    }
+
+    /// The length of the box's diagonal.
+    pub fn size(&self) -> f32 {
+        let sides = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
+        sides.iter().map(|side| side * side).sum::<f64>().sqrt() as f32
+    }
+
     fn radius(&self, middle: [f32; 3]) -> f32 {
         let largest = middle.iter().fold(0.0, |most: f32, x| most.max(x.abs()));
         let ulp = f64::from(largest.next_up() - largest);
@@ -230,6 +245,19 @@ mod tests {
         assert!(BALLS / 2 < with_a_size);
         let others = World::new(&icosphere(), 1.0, 3).unwrap();
         assert_ne!(world.balls, others.balls);
+    }
+
+    #[test]
+    fn balls_that_are_seen_from_afar_are_larger_than_what_is_rounded() {
+        let world = World::new(&icosphere(), 1.0, 2).unwrap();
+        assert_eq!(world.balls_seen_from(0.0), world.balls);
+        let afar = 1e5 * world.size();
+        let seen = world.balls_seen_from(afar);
+        assert!(BALLS / 2 < seen.len() && seen.len() < BALLS);
+        // Two ulps of a coordinate of the origin.
+        let rounded = 2.0 * (afar.next_up() - afar);
+        assert!(seen.iter().all(|[_, _, _, radius]| rounded < *radius));
+        assert!(world.balls_seen_from(1e9 * world.size()).is_empty());
     }
 
     #[test]

@@ -6,6 +6,8 @@ use wgpu::{Buffer, BufferUsages};
 
 /// As in the shader.
 const WORKGROUP: u32 = 64;
+/// The buffers that a shader reads come before the one that it writes.
+const INPUTS: usize = 3;
 
 /// A device with the kernel on it.
 pub struct Gpu {
@@ -21,6 +23,7 @@ struct Buffers {
     room: u32,
     batch: Buffer,
     cases: Buffer,
+    factors: Buffer,
     verdicts: Buffer,
     /// Where the host reads the verdicts.
     read: Buffer,
@@ -47,21 +50,24 @@ impl Gpu {
         let request = wgpu::DeviceDescriptor {
             label: Some("hairline"),
             required_limits: adapter.limits(),
+            required_features: adapter.features() & wgpu::Features::PASSTHROUGH_SHADERS,
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&request))
             .map_err(|error| format!("{}: {error}", adapter.get_info().name))?;
-        let source = match &shader.code {
-            Code::Wgsl(text) => wgpu::ShaderSource::Wgsl(text.into()),
-            Code::SpirV(words) => wgpu::ShaderSource::SpirV(words.into()),
-        };
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("kernel"),
-            source,
+        let module = module(&device, &shader.code)?;
+        let group = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &std::array::from_fn::<_, { INPUTS + 1 }, _>(storage),
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&group)],
+            immediate_size: 0,
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("kernel"),
-            layout: None,
+            layout: Some(&layout),
             module: &module,
             entry_point: Some("main"),
             compilation_options: Default::default(),
@@ -107,8 +113,14 @@ impl Gpu {
         head.extend(0_u32.to_le_bytes());
         self.queue.write_buffer(&buffers.batch, 0, &head);
         self.queue.write_buffer(&buffers.cases, 0, &batch.cases);
+        self.queue.write_buffer(&buffers.factors, 0, &batch.factors);
 
-        let bound = [&buffers.batch, &buffers.cases, &buffers.verdicts];
+        let bound = [
+            &buffers.batch,
+            &buffers.cases,
+            &buffers.factors,
+            &buffers.verdicts,
+        ];
         let entries: Vec<wgpu::BindGroupEntry> = (0..)
             .zip(bound)
             .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -163,9 +175,64 @@ impl Gpu {
             room: count,
             batch: buffer("batch", 12, BufferUsages::STORAGE | input),
             cases: buffer("cases", cases, BufferUsages::STORAGE | input),
+            factors: buffer(
+                "factors",
+                4 * u64::from(count),
+                BufferUsages::STORAGE | input,
+            ),
             verdicts: buffer("verdicts", verdicts, BufferUsages::STORAGE | output),
             read: buffer("read", verdicts, BufferUsages::MAP_READ | input),
         }
+    }
+}
+
+/// The shader on the device.
+fn module(device: &wgpu::Device, code: &Code) -> Result<wgpu::ShaderModule, String> {
+    let label = Some("kernel");
+    match code {
+        Code::Wgsl(text) => {
+            let source = wgpu::ShaderSource::Wgsl(text.into());
+            Ok(device.create_shader_module(wgpu::ShaderModuleDescriptor { label, source }))
+        }
+        Code::SpirV(words) => {
+            if !device
+                .features()
+                .contains(wgpu::Features::PASSTHROUGH_SHADERS)
+            {
+                return Err(
+                    "GLSL and HLSL need Vulkan, and a device that takes SPIR-V as it is".to_owned(),
+                );
+            }
+            let desc = wgpu::ShaderModuleDescriptorPassthrough {
+                label,
+                entry_points: vec![wgpu::PassthroughShaderEntryPoint {
+                    name: "main".into(),
+                    workgroup_size: (WORKGROUP, 1, 1),
+                }]
+                .into(),
+                spirv: Some(words.into()),
+                ..Default::default()
+            };
+            // wgpu's own reader of SPIR-V forgets NoContraction, and so `precise`.
+            // SAFETY: the words are what glslangValidator wrote; its bindings are those of the layout, and it indexes within its buffers.
+            Ok(unsafe { device.create_shader_module_passthrough(desc) })
+        }
+    }
+}
+
+/// A storage buffer at a binding, read-only but for the last one.
+fn storage(binding: usize) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding: binding as u32,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage {
+                read_only: binding < INPUTS,
+            },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
     }
 }
 

@@ -1,4 +1,4 @@
-//! A guarded kernel as `hairline repair --emit wgsl` or `glsl` writes it, on the device.
+//! A guarded kernel as `hairline repair --emit wgsl`, `glsl` or `hlsl` writes it, on the device.
 
 use std::io::Write;
 use std::path::Path;
@@ -16,13 +16,66 @@ pub enum Code {
     SpirV(Vec<u32>),
 }
 
-/// GLSL for Vulkan, compiled by glslangValidator: wgpu's own reader knows no `precise`.
-fn compiled(text: &str) -> Result<Vec<u32>, String> {
+/// A language that a kernel is emitted in.
+#[derive(Clone, Copy, PartialEq)]
+enum Language {
+    Wgsl,
+    Glsl,
+    Hlsl,
+}
+
+impl Language {
+    /// By a file's name.
+    fn of(file: &Path) -> Result<Language, String> {
+        match file.extension().and_then(|extension| extension.to_str()) {
+            Some("wgsl") => Ok(Language::Wgsl),
+            Some("glsl") => Ok(Language::Glsl),
+            Some("hlsl") => Ok(Language::Hlsl),
+            _ => Err(format!(
+                "{}: expected a name that ends in .wgsl, .glsl or .hlsl",
+                file.display()
+            )),
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Language::Wgsl => "WGSL",
+            Language::Glsl => "GLSL",
+            Language::Hlsl => "HLSL",
+        }
+    }
+
+    /// What a line begins with that defines the kernel.
+    fn start(self) -> &'static str {
+        match self {
+            Language::Wgsl => "fn ",
+            Language::Glsl | Language::Hlsl => "int ",
+        }
+    }
+
+    /// The program that calls the kernel.
+    fn caller(self) -> &'static str {
+        match self {
+            Language::Wgsl => include_str!("wrapped/guarded.wgsl"),
+            Language::Glsl => include_str!("wrapped/guarded.glsl"),
+            Language::Hlsl => include_str!("wrapped/guarded.hlsl"),
+        }
+    }
+}
+
+/// GLSL or HLSL for Vulkan, compiled by glslangValidator: wgpu's own reader knows no `precise`.
+fn compiled(text: &str, language: Language) -> Result<Vec<u32>, String> {
     let file = std::env::temp_dir().join(format!("hairline-gpu-{}.spv", std::process::id()));
     let failed =
         |error: std::io::Error| format!("glslangValidator: {error} (Debian: glslang-tools)");
-    let mut child = Command::new("glslangValidator")
-        .args(["-V", "--stdin", "-S", "comp", "-o"])
+    let mut command = Command::new("glslangValidator");
+    command.args(["-V", "--stdin", "-S", "comp"]);
+    if language == Language::Hlsl {
+        command.args(["-D", "-e", "main"]);
+    }
+    let mut child = command
+        .arg("-o")
         .arg(&file)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -46,47 +99,11 @@ fn compiled(text: &str) -> Result<Vec<u32>, String> {
     Ok(words.iter().map(|word| u32::from_le_bytes(*word)).collect())
 }
 
-const WGSL: &str = "
-struct Batch { count: u32, parallel: f32, zero: u32 }
-@group(0) @binding(0) var<storage, read> batch: Batch;
-@group(0) @binding(1) var<storage, read> cases: array<f32>;
-@group(0) @binding(2) var<storage, read_write> verdicts: array<u32>;
-fn vector(at: u32) -> vec3f { return vec3f(cases[at], cases[at + 1u], cases[at + 2u]); }
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    if (id.x >= batch.count) { return; }
-    let at = 17u * id.x;
-    var values: vec3f;
-    let answer = KERNEL(vector(at), vector(at + 3u), vector(at + 6u), vector(at + 9u), vector(at + 12u)ENDS, batch.zero, &values);
-    for (var i = 0u; i < 5u; i++) { verdicts[5u * id.x + i] = 0u; }
-    if (answer == HAIRLINE_HIT || answer == COUNTED) { verdicts[5u * id.x] = 1u; }
-}
-";
-
-const GLSL: &str = "
-layout(local_size_x = 64) in;
-layout(std430, set = 0, binding = 0) readonly buffer Batch { uint count; float parallel; };
-layout(std430, set = 0, binding = 1) readonly buffer Cases { float cases[]; };
-layout(std430, set = 0, binding = 2) buffer Verdicts { uint verdicts[]; };
-vec3 vector(uint at) { return vec3(cases[at], cases[at + 1u], cases[at + 2u]); }
-void main() {
-    uint id = gl_GlobalInvocationID.x;
-    if (id >= count) { return; }
-    uint at = 17u * id;
-    vec3 values;
-    int answer = KERNEL(vector(at), vector(at + 3u), vector(at + 6u), vector(at + 9u), vector(at + 12u)ENDS, values);
-    for (uint i = 0u; i < 5u; i++) { verdicts[5u * id + i] = 0u; }
-    if (answer == HAIRLINE_HIT || answer == COUNTED) { verdicts[5u * id] = 1u; }
-}
-";
-
 impl Shader {
     /// From a file; `ask` says what an answer `ask` counts as, hit or miss. An error in one line.
     pub fn read(file: &str, ask: &str) -> Result<Shader, String> {
         let text = std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"))?;
-        let is_glsl = Path::new(file)
-            .extension()
-            .is_some_and(|extension| extension == "glsl");
+        let language = Language::of(Path::new(file))?;
         let counted = match ask {
             "hit" => "HAIRLINE_ASK",
             "miss" => "HAIRLINE_HIT",
@@ -95,10 +112,9 @@ impl Shader {
         let promise = text.lines().find_map(|line| line.split_once("promise: "));
         let words = promise.and_then(|(_, words)| words.split_once(", "));
         let (extent, sides) = words.ok_or(format!("{file}: no line with its promise"))?;
-        let start = if is_glsl { "int " } else { "fn " };
         let mut head = text
             .lines()
-            .filter_map(|line| line.strip_prefix(start)?.split_once('('));
+            .filter_map(|line| line.strip_prefix(language.start())?.split_once('('));
         // The last function is the kernel.
         let (name, inputs) = head.next_back().ok_or(format!("{file}: no function"))?;
         let ends = if inputs.contains("t_min") {
@@ -106,17 +122,21 @@ impl Shader {
         } else {
             ""
         };
-        let wrapped = if is_glsl { GLSL } else { WGSL };
-        let wrapped = wrapped
+        let caller = language
+            .caller()
             .replace("KERNEL", name)
             .replace("ENDS", ends)
             .replace("COUNTED", counted);
-        let code = match is_glsl {
-            true => Code::SpirV(compiled(&format!("#version 450\n{text}{wrapped}"))?),
-            false => Code::Wgsl(format!("{text}{wrapped}")),
+        let code = match language {
+            Language::Wgsl => Code::Wgsl(format!("{text}{caller}")),
+            Language::Glsl => Code::SpirV(compiled(
+                &format!("#version 450\n{text}{caller}"),
+                language,
+            )?),
+            Language::Hlsl => Code::SpirV(compiled(&format!("{text}{caller}"), language)?),
         };
         let sides = if sides == "front" { "front" } else { "both" };
-        let language = if is_glsl { "GLSL" } else { "WGSL" };
+        let language = language.name();
         let hello = format!(
             "name guarded-{}\n\
              source {file} in {language}, an ask is a {ask}\n\

@@ -1,13 +1,16 @@
 //! A ray–triangle test in WGSL that answers hairline over its pipe, in the binary encoding of
-//! docs/protocol.md: `hairline audit --kernel-cmd examples/gpu/target/release/hairline-gpu-example`; or a guarded one in WGSL
-//! or GLSL: `… hairline-gpu-example guarded.glsl miss`.
+//! docs/protocol.md: `hairline audit --kernel-cmd examples/gpu/target/debug/hairline-gpu-example`; or a guarded one in WGSL,
+//! GLSL or HLSL: `… hairline-gpu-example guarded.glsl miss`. `… products` or
+//! `… sums` at the end has the coordinates made in the shader.
 
 mod gpu;
 mod guarded;
+mod inputs;
 mod protocol;
 
 use gpu::Gpu;
 use guarded::Shader;
+use inputs::Inputs;
 use protocol::Batch;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -32,12 +35,18 @@ fn main() -> ExitCode {
 fn answer() -> io::Result<()> {
     let (mut input, mut output) = (io::stdin().lock(), io::stdout().lock());
     writeln!(output, "hairline-kernel 1")?;
-    let words: Vec<String> = std::env::args().skip(1).collect();
+    let mut words: Vec<String> = std::env::args().skip(1).collect();
+    let inputs = match words.last().map(String::as_str) {
+        Some("products") => Inputs::Products,
+        Some("sums") => Inputs::Sums,
+        _ => Inputs::Stored,
+    };
+    words.pop_if(|word| ["products", "sums"].contains(&word.as_str()));
     let shader = match &words[..] {
         [] => Ok(Shader::published()),
         [file, ask] => Shader::read(file, ask),
         _ => Err(
-            "expected nothing, or FILE.wgsl|FILE.glsl and what an ask counts as: hit or miss"
+            "expected nothing, or FILE.wgsl|FILE.glsl|FILE.hlsl and what an ask counts as, hit or miss; then, if wanted, products or sums"
                 .to_owned(),
         ),
     };
@@ -49,7 +58,7 @@ fn answer() -> io::Result<()> {
             return output.flush();
         }
     };
-    let on = format!("; on {}; {ROUNDING}", gpu.device());
+    let on = format!("{}; on {}; {ROUNDING}", inputs.told(), gpu.device());
     for line in hello.lines() {
         writeln!(
             output,
@@ -60,8 +69,11 @@ fn answer() -> io::Result<()> {
     writeln!(output, "processes 1\nencoding binary\nready")?;
     output.flush()?;
     while let Some(batch) = Batch::read(&mut input)? {
-        let verdicts = gpu.run(&batch).map_err(io::Error::other)?;
-        protocol::write_answer(&mut output, batch.count, &verdicts)?;
+        let count = batch.count;
+        let verdicts = gpu
+            .run(&batch.made_in_the_shader(inputs))
+            .map_err(io::Error::other)?;
+        protocol::write_answer(&mut output, count, &verdicts)?;
     }
     Ok(())
 }

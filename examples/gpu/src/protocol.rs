@@ -1,5 +1,6 @@
 //! The binary encoding of docs/protocol.md: little-endian, `f32` only.
 
+use crate::inputs::{Coordinates, Inputs};
 use std::io::{self, Read, Write};
 
 /// Bytes of a case: origin, direction, a, b, c, t_min, t_max.
@@ -15,6 +16,8 @@ pub struct Batch {
     pub parallel: f32,
     /// The cases, as they came.
     pub cases: Vec<u8>,
+    /// By what the shader multiplies each case's coordinates, a float a case; negative where b and c are sums.
+    pub factors: Vec<u8>,
 }
 
 impl Batch {
@@ -40,7 +43,24 @@ impl Batch {
             count,
             parallel: f32::from_le_bytes(epsilon),
             cases,
+            factors: Vec::new(),
         }))
+    }
+
+    /// The same cases, with coordinates that the shader makes.
+    pub fn made_in_the_shader(mut self, inputs: Inputs) -> Batch {
+        self.factors.clear();
+        for case in self.cases.chunks_exact_mut(CASE_BYTES) {
+            let (words, _) = case.as_chunks_mut::<4>();
+            let mut coordinates: Coordinates =
+                std::array::from_fn(|place| f32::from_le_bytes(words[place]));
+            let factor = inputs.split(&mut coordinates);
+            for (word, coordinate) in words.iter_mut().zip(coordinates) {
+                *word = coordinate.to_le_bytes();
+            }
+            self.factors.extend(factor.to_le_bytes());
+        }
+        self
     }
 }
 

@@ -12,8 +12,13 @@
 //! o + t·d     = fma(d.x, t, o.x), and so on
 //! x*y - z*w   = fma(x, y, -(z*w)),  x - y*z = fma(-y, z, x)
 //! ```
+//!
+//! An arithmetic that rearranges sums looks at their [`Expression`]s, whether or not a term has a name. What comes
+//! out is not fused again.
 
 use super::arithmetic::{Arithmetic, RoundedOperation};
+use super::expression::{Expression, Part};
+use super::rearranged::{Rest, rearranged};
 use super::{Float, Real};
 use std::fmt::Debug;
 
@@ -28,6 +33,7 @@ pub struct Rounded<F, N> {
     notes: N,
     /// If this is a product that may still be fused.
     product: Option<Factors<F, N>>,
+    expression: Expression<F, N>,
 }
 
 /// The factors of a product, and the notes on both.
@@ -79,12 +85,16 @@ impl<F: Float, N: Notes> Rounded<F, N> {
             arithmetic,
             notes,
             product: None,
+            expression: Expression::of_its_own(arithmetic),
         }
     }
 
     /// A constant, which takes on the arithmetic of what it meets.
     pub(super) fn constant(value: F) -> Self {
-        Rounded::new(value, Arithmetic::IEEE)
+        Rounded {
+            expression: Expression::constant(value),
+            ..Rounded::new(value, Arithmetic::IEEE)
+        }
     }
 
     /// The float.
@@ -116,13 +126,78 @@ impl<F: Float, N: Notes> Rounded<F, N> {
             arithmetic,
             notes,
             product,
+            expression: Expression::of_its_own(arithmetic),
         }
     }
 
-    /// Fuses a product into the sum, of two the left one.
+    /// The result of an operation on two numbers, with its expression where that matters.
+    #[inline]
+    fn known_as(
+        self,
+        expression: impl FnOnce(Part<F, N>, Part<F, N>) -> Expression<F, N>,
+        of: [&Self; 2],
+    ) -> Self {
+        if !self.arithmetic.rearranged {
+            return self;
+        }
+        let [a, b] = of.map(Rounded::part);
+        Rounded {
+            expression: expression(a, b),
+            ..self
+        }
+    }
+
+    /// As a factor or a term of others.
+    fn part(&self) -> Part<F, N> {
+        Part {
+            value: self.value,
+            notes: self.notes,
+            name: self.expression.name,
+        }
+    }
+
+    /// A factor or a term, as a number again.
+    fn of_part(part: Part<F, N>, arithmetic: Arithmetic) -> Self {
+        Rounded {
+            value: part.value,
+            arithmetic,
+            notes: part.notes,
+            product: None,
+            expression: Expression::named(part.name),
+        }
+    }
+
+    /// A sum as a compiler rearranges it; none if it leaves it.
+    fn rearranged_sum(&self, other: &Self, arithmetic: Arithmetic) -> Option<Self> {
+        let of_part = |part| Rounded::of_part(part, arithmetic);
+        let rest = rearranged([self, other].map(|it| (it.part(), it.expression.made_of)))?;
+        Some(match rest {
+            Rest::Term(term) => of_part(term),
+            Rest::Product {
+                terms: [a, b],
+                factor,
+            } => of_part(a)
+                .sum(&of_part(b))
+                .product(&of_part(factor))
+                .clone(),
+        })
+    }
+
+    /// Rearranges the sum or fuses a product into it, of two the left one.
     #[inline(never)]
     fn sum(&self, other: &Self) -> Self {
         let arithmetic = self.arithmetic.and(other.arithmetic);
+        if arithmetic.rearranged
+            && let Some(sum) = self.rearranged_sum(other, arithmetic)
+        {
+            return sum;
+        }
+        self.rounded_sum(other, arithmetic)
+            .known_as(Expression::sum, [self, other])
+    }
+
+    /// Fuses a product into the sum, of two the left one.
+    fn rounded_sum(&self, other: &Self, arithmetic: Arithmetic) -> Self {
         let (product, term) = match self.product {
             Some(product) => (Some(product), other),
             None => (other.product, self),
@@ -148,6 +223,7 @@ impl<F: Float, N: Notes> Rounded<F, N> {
         Rounded {
             value: -self.value,
             product,
+            expression: self.expression.negation(),
             ..*self
         }
     }
@@ -157,6 +233,7 @@ impl<F: Float, N: Notes> Rounded<F, N> {
         let operation = RoundedOperation::Product(self.value, other.value);
         let arithmetic = self.arithmetic.and(other.arithmetic);
         Rounded::made(operation, arithmetic, self.notes.and(other.notes))
+            .known_as(Expression::product, [self, other])
     }
 
     #[inline(never)]
@@ -164,6 +241,7 @@ impl<F: Float, N: Notes> Rounded<F, N> {
         let operation = RoundedOperation::Quotient(self.value, other.value);
         let arithmetic = self.arithmetic.and(other.arithmetic);
         Rounded::made(operation, arithmetic, self.notes.and(other.notes))
+            .known_as(Expression::quotient, [self, other])
     }
 
     /// The float, which decides something.
@@ -189,6 +267,7 @@ impl<F: Float, N: Notes> Real for Rounded<F, N> {
     fn abs(&self) -> Self {
         Rounded {
             value: self.value.abs(),
+            expression: Expression::of_its_own(self.arithmetic),
             ..self.clone()
         }
     }
@@ -223,6 +302,7 @@ impl<F: Float, N: Notes> Real for Rounded<F, N> {
     fn just_below(&self) -> Self {
         Rounded {
             value: self.arithmetic.just_below(self.value),
+            expression: Expression::of_its_own(self.arithmetic),
             ..self.clone()
         }
     }

@@ -3,13 +3,17 @@
 //!
 //! A number is a place on a tape of operations, one tape a thread. The same operation on the same places
 //! is written once. A comparison has no value to look at, so it follows a script: running a kernel again
-//! with another script leads along another path. Products are fused into sums as in
+//! with another script leads along another path. Products are fused into sums, and sums are rearranged, as in
 //! [`Emulated`](super::Emulated).
 
-use super::Real;
+mod sums;
+
+use super::rearranged::Operand;
+use super::{Arithmetic, Real};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::mem;
+use sums::{Signed, rearranged};
 
 /// A place on the tape.
 pub type Place = u32;
@@ -137,7 +141,7 @@ pub struct Tape {
     /// The comparisons of the path, or of a test that is tried.
     pub decisions: Decisions,
     places: HashMap<Operation, Place>,
-    fused: bool,
+    arithmetic: Arithmetic,
 }
 
 /// Comparisons, and the answers that they get.
@@ -189,11 +193,11 @@ fn on_tape<T>(with: impl FnOnce(&mut Tape) -> T) -> T {
 
 /// Runs `run` on an empty tape; the first comparisons get the answers of the script, later ones no. Returns
 /// the result and the tape.
-pub fn record<T>(script: &[bool], fused: bool, run: impl FnOnce() -> T) -> (T, Tape) {
+pub fn record<T>(script: &[bool], arithmetic: Arithmetic, run: impl FnOnce() -> T) -> (T, Tape) {
     let decisions = Decisions::following(script.to_vec());
     TAPE.set(Tape {
         decisions,
-        fused,
+        arithmetic,
         ..Tape::default()
     });
     let result = run();
@@ -281,8 +285,12 @@ impl Recorded {
     }
 
     fn at(operation: Operation) -> Recorded {
+        Recorded::of_place(push(operation))
+    }
+
+    fn of_place(place: Place) -> Recorded {
         Recorded {
-            place: push(operation),
+            place,
             factors: None,
         }
     }
@@ -299,6 +307,9 @@ impl Recorded {
     }
 
     fn sum(&self, other: &Recorded) -> Recorded {
+        if let Some(sum) = rearranged([self, other].map(|it| Signed::of(it.place))) {
+            return sum;
+        }
         let operation = match (self.factors, other.factors) {
             (Some([a, b]), _) => Operation::Fma(a, b, other.place),
             (None, Some([a, b])) => Operation::Fma(a, b, self.place),
@@ -308,6 +319,10 @@ impl Recorded {
     }
 
     fn difference(&self, other: &Recorded) -> Recorded {
+        if let Some(sum) = rearranged([Signed::of(self.place), Signed::of(other.place).negation()])
+        {
+            return sum;
+        }
         match (self.factors, other.factors) {
             (None, None) => Recorded::at(Operation::Sub(self.place, other.place)),
             _ => self.sum(&other.negation()),
@@ -316,7 +331,7 @@ impl Recorded {
 
     fn product(&self, other: &Recorded) -> Recorded {
         let place = push(Operation::Mul(self.place, other.place));
-        let fused = on_tape(|tape| tape.fused);
+        let fused = on_tape(|tape| tape.arithmetic.fused);
         Recorded {
             place,
             factors: fused.then_some([self.place, other.place]),

@@ -135,7 +135,7 @@ pub(super) fn paths<T: Target, K: Kernel<T>>(arithmetic: Arithmetic) -> Result<V
     let mut paths = Vec::new();
     let mut script = Vec::new();
     loop {
-        let ((sink, hit), tape) = record(&script, arithmetic.fused, || run::<T, K>(None));
+        let ((sink, hit), tape) = record(&script, arithmetic, || run::<T, K>(None));
         let decisions = tape.decisions.made;
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
@@ -160,7 +160,7 @@ pub(super) fn paths<T: Target, K: Kernel<T>>(arithmetic: Arithmetic) -> Result<V
                 continue;
             }
             let refused = || run::<T, K>(Some(number));
-            let ((sink, hit), tape) = record(&script, arithmetic.fused, refused);
+            let ((sink, hit), tape) = record(&script, arithmetic, refused);
             let goes_on = sink.compared.len() > number + 1 || tape.decisions.made.len() > *before;
             if hit.is_some() || goes_on {
                 let name = K::INFO.gates[*gate].name;

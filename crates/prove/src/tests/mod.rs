@@ -12,12 +12,13 @@ mod unit;
 mod verdict;
 mod watertight;
 
+use crate::arith::Arithmetic;
 use crate::arith::recorded::{Place, Recorded, record};
 use crate::kernel::Path;
 
 /// A polynomial's program and the place of its value.
 fn recorded(run: impl FnOnce() -> Recorded) -> (Path, Place) {
-    let (place, tape) = record(&[], false, || run().place());
+    let (place, tape) = record(&[], Arithmetic::IEEE, || run().place());
     let (operations, decisions) = (tape.operations, tape.decisions);
     (
         Path {

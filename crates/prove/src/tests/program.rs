@@ -103,10 +103,8 @@ fn margins_that_a_program_computes<F: Scalar>(entry: &Entry) -> usize {
 #[test]
 fn every_recorded_program_computes_the_margins_of_its_kernel() {
     for entry in KERNELS {
-        for name in [
-            entry.info.name.to_owned(),
-            format!("{}+fma", entry.info.name),
-        ] {
+        for form in ["", "+fma", "+lavapipe"] {
+            let name = format!("{}{form}", entry.info.name);
             let entry = find(&name).expect("a kernel");
             let counts = [
                 margins_that_a_program_computes::<f32>(entry),

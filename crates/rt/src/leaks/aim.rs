@@ -31,6 +31,14 @@ impl fmt::Display for Aim {
     }
 }
 
+/// Where rays start.
+#[derive(Clone, Copy)]
+pub enum Start {
+    Inside,
+    /// So far from a point inside, where they end after they have passed what they are aimed at.
+    Away(f32),
+}
+
 /// Counts of rays that were aimed alike.
 #[derive(Clone, Default, Serialize)]
 pub struct Aimed {
@@ -61,6 +69,7 @@ struct Task {
     faces: u32,
     aim: u32,
     room: u32,
+    distance: f32,
 }
 
 /// A ray that the device loses, or hits an even number of times.
@@ -98,10 +107,20 @@ impl<'a> Aimer<'a> {
         }
     }
 
-    /// Counts rays at a mesh that the device has as a structure.
-    pub fn count(&self, world: &World, structure: &Structure, aim: Aim) -> Result<Aimed, Failure> {
+    /// Counts rays at a mesh that the device has as a structure. There have to be balls for this start.
+    pub fn count(
+        &self,
+        world: &World,
+        structure: &Structure,
+        aim: Aim,
+        start: Start,
+    ) -> Result<Aimed, Failure> {
         let device = self.device;
-        let balls = device.storage(&world.balls);
+        let distance = match start {
+            Start::Inside => 0.0,
+            Start::Away(distance) => distance,
+        };
+        let balls = device.storage(&world.balls_seen_from(distance));
         let corners = device.storage(&world.triangles);
         let mut counted = Aimed::default();
         for run in device.runs(self.rays) {
@@ -111,6 +130,7 @@ impl<'a> Aimer<'a> {
                 faces: world.triangles.len() as u32,
                 aim: aim as u32,
                 room: ROOM as u32,
+                distance,
             };
             let task = device.storage(&[task]);
             let counters = device.zeros::<u32>(2);
@@ -133,7 +153,7 @@ impl<'a> Aimer<'a> {
             counted.even += u64::from(counters[1]);
             for (suspects, count) in suspects.chunks(ROOM).zip(counters) {
                 for suspect in &suspects[..ROOM.min(count as usize)] {
-                    counted.decide(world, suspect);
+                    counted.decide(world, suspect, start);
                 }
             }
         }
@@ -152,8 +172,12 @@ fn is_crossing_of_one_layer(passage: &Passage) -> bool {
 }
 
 impl Aimed {
-    fn decide(&mut self, world: &World, suspect: &Suspect) {
+    fn decide(&mut self, world: &World, suspect: &Suspect, start: Start) {
         let ray = Ray::new(suspect.origin, suspect.direction);
+        let ray = match start {
+            Start::Inside => ray,
+            Start::Away(_) => ray.on(0.0, 1.0),
+        };
         if suspect.is_hit == 0 {
             self.decided += 1;
             // A ray that means nothing is none that was made here.

@@ -16,6 +16,7 @@ pub struct Leaks {
     pub rays: u64,
     pub seed: u32,
     pub rows: Vec<Row>,
+    pub from_afar: Vec<FromAfar>,
     pub scaled: Vec<Scaled>,
 }
 
@@ -25,6 +26,14 @@ pub struct Row {
     name: String,
     /// At vertices, at edges, into faces.
     aimed: Vec<Aimed>,
+}
+
+/// Counts of rays at vertices that start outside.
+#[derive(Serialize)]
+pub struct FromAfar {
+    /// How far away, in sizes of the mesh.
+    pub sizes: f32,
+    pub counted: Aimed,
 }
 
 /// Counts of rays at vertices of the mesh in some size.
@@ -73,9 +82,10 @@ impl Leaks {
     }
 
     fn all(&self) -> impl Iterator<Item = &Aimed> {
-        let scaled = self.scaled.iter().map(|it| &it.counted);
         let rows = self.rows.iter().flat_map(|row| &row.aimed);
-        rows.chain(scaled)
+        let from_afar = self.from_afar.iter().map(|it| &it.counted);
+        let scaled = self.scaled.iter().map(|it| &it.counted);
+        rows.chain(from_afar).chain(scaled)
     }
 
     /// Lost rays of the mesh as it is, in one structure.
@@ -119,6 +129,7 @@ impl fmt::Display for Leaks {
         }
         writeln!(f)?;
         self.fmt_decided(f)?;
+        self.fmt_from_afar(f)?;
         self.fmt_scaled(f)
     }
 }
@@ -159,6 +170,26 @@ impl Leaks {
                  {} of these\n      cross single layers of the surface and touch nothing: a triangle counts twice, or not at all.",
                 group_digits(decided),
                 group_digits(must_be_odd)
+            )?;
+        }
+        Ok(())
+    }
+
+    fn fmt_from_afar(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.from_afar.is_empty() {
+            return Ok(());
+        }
+        writeln!(f)?;
+        writeln!(
+            f,
+            "Rays from outside to a point inside, through a vertex, which start so many times the mesh's size away"
+        )?;
+        for FromAfar { sizes, counted } in &self.from_afar {
+            let sizes = group_digits(*sizes as u64);
+            writeln!(
+                f,
+                "  {sizes:>7}: lost {}",
+                share(counted.lost, counted.rays)
             )?;
         }
         Ok(())

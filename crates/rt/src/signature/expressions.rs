@@ -198,6 +198,68 @@ pub const EXPRESSIONS: &[Expression] = &[
         ],
     },
     Expression {
+        wgsl: "a * h - b * h",
+        evaluations: &[
+            (AS_WRITTEN, |[a, b, .., h]| a * h - b * h),
+            ("(a - b) * h", |[a, b, .., h]| (a - b) * h),
+            ("left product fused", |[a, b, .., h]| fma(a, h, -(b * h))),
+            ("right product fused", |[a, b, .., h]| fma(-b, h, a * h)),
+        ],
+    },
+    Expression {
+        wgsl: "c - (a * h + b * h)",
+        evaluations: &[
+            (AS_WRITTEN, |[a, b, c, .., h]| c - (a * h + b * h)),
+            ("c - (a + b) * h", |[a, b, c, .., h]| c - (a + b) * h),
+            ("c - (a + b) * h, fused", |[a, b, c, .., h]| {
+                fma(-(a + b), h, c)
+            }),
+            ("c - a * h - b * h, fused", |[a, b, c, .., h]| {
+                c - fma(a, h, b * h)
+            }),
+        ],
+    },
+    Expression {
+        wgsl: "a * h + h",
+        evaluations: &[
+            (AS_WRITTEN, |[a, .., h]| a * h + h),
+            ("(a + 1) * h", |[a, .., h]| (a + 1.0) * h),
+            ("fused", |[a, .., h]| fma(a, h, h)),
+        ],
+    },
+    Expression {
+        wgsl: "(a - b) + b",
+        evaluations: &[(AS_WRITTEN, |[a, b, ..]| (a - b) + b), ("a", |[a, ..]| a)],
+    },
+    Expression {
+        wgsl: "a - (a + b)",
+        evaluations: &[
+            (AS_WRITTEN, |[a, b, ..]| a - (a + b)),
+            ("-b", |[_, b, ..]| -b),
+        ],
+    },
+    Expression {
+        wgsl: "(a - b) - a",
+        evaluations: &[
+            (AS_WRITTEN, |[a, b, ..]| (a - b) - a),
+            ("-b", |[_, b, ..]| -b),
+        ],
+    },
+    Expression {
+        wgsl: "a - (b + a)",
+        evaluations: &[
+            (AS_WRITTEN, |[a, b, ..]| a - (b + a)),
+            ("-b", |[_, b, ..]| -b),
+        ],
+    },
+    Expression {
+        wgsl: "a - (a - b)",
+        evaluations: &[
+            (AS_WRITTEN, |[a, b, ..]| a - (a - b)),
+            ("b", |[_, b, ..]| b),
+        ],
+    },
+    Expression {
         wgsl: "(a + b) - a",
         evaluations: &[
             (AS_WRITTEN, |[a, b, ..]| (a + b) - a),
