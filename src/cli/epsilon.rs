@@ -22,7 +22,7 @@ use crate::epsilon::{
     contract_with, counts, counts_of,
 };
 use crate::family::STRATA;
-use crate::kernel::{Entry, Scalar};
+use crate::kernel::{Entry, EpsilonText, Scalar};
 use crate::record::Context;
 use crate::report::epsilon::{SCENE_FORMATS, has_a_table, rows_on_screen, scene_record};
 use crate::suggest::nearest_name;
@@ -199,15 +199,12 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         kinds: kinds as u64,
         progress: &progress,
     };
-    let mut planned = Vec::new();
+    let mut planned: Vec<PlannedStudy<'_>> = Vec::new();
+    let mut place = 0;
     for tuned in &tuned {
         for scalar in scalars_of(tuned.row.entry, scalars) {
-            planned.push(PlannedStudy {
-                place: planned.len(),
-                tuned,
-                scalar,
-                rays: count,
-            });
+            PlannedStudy::plan(&mut planned, (place, tuned), scalar, count);
+            place += 1;
         }
     }
     run.expect_rounds(&planned);
@@ -235,6 +232,22 @@ struct Tuned<'a> {
     row: &'a Row,
     sets: Vec<&'a Row>,
     knobs: Vec<Knob>,
+}
+
+impl Tuned<'_> {
+    /// True if a study of another kernel finds the same: it is the same test, judged alike, with the same numbers to choose.
+    fn is_studied_with(&self, other: &Tuned<'_>) -> bool {
+        let (row, of_other) = (self.row, other.row);
+        let sets = |tuned: &Tuned<'_>| -> Vec<(String, Vec<EpsilonText>)> {
+            let sets = tuned.sets.iter();
+            sets.map(|row| (row.set.clone(), row.epsilons.clone()))
+                .collect()
+        };
+        row.entry.is_one_test_with(of_other.entry)
+            && row.contract == of_other.contract
+            && self.knobs == other.knobs
+            && sets(self) == sets(other)
+    }
 }
 
 /// A kernel as it is judged here, and what is counted of it.

@@ -208,6 +208,37 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
+fn kernels_that_are_one_test_have_the_results_that_each_has_alone() {
+    let folder = scratch("epsilon-one-test");
+    // The second does not share a test with the others, and stands between them.
+    let names = ["convex-polygon", "cramer", "plane-inside-out-precomputed"];
+    let run = |kernels: &str| {
+        let scene = ["--scene", "room", "-n", "2000"];
+        let all = [
+            &["epsilon", "-q", "--format", "json", "-k", kernels],
+            &scene[..],
+        ]
+        .concat();
+        let (text, _) = ends(&folder, &all, 0);
+        json_schema::result::<SceneResult>(&text).kernels
+    };
+    let table = run(&names.join(","));
+    let of_table: Vec<&str> = table.iter().map(|part| part.kernel.as_str()).collect();
+    assert_eq!(of_table, names.map(|name| [name; 2]).concat());
+    for (name, of_table) in names.iter().zip(table.chunks(2)) {
+        for (part, alone) in of_table.iter().zip(run(name)) {
+            // A page of one kernel also has segments.
+            let alone = SceneKernelPart {
+                segments: None,
+                ..alone
+            };
+            let [part, alone] = [part, &alone].map(|part| serde_json::to_string(part).unwrap());
+            assert_eq!(part, alone);
+        }
+    }
+}
+
+#[test]
 fn a_snippet_has_every_number_with_its_comparison() {
     let folder = scratch("epsilon-snippet");
     let all = [

@@ -27,13 +27,36 @@ const SHARE_OF_FORMS: u64 = 4;
 /// The passes of [`PASSES`] that are about such numbers.
 const PASSES_OF_FORMS: u64 = 5;
 
-/// A kernel in a scalar, and how many rays of each kind it gets.
+/// A study in a scalar, and how many rays of each kind it gets.
 pub(super) struct PlannedStudy<'a> {
-    /// Its place in the record.
-    pub(super) place: usize,
+    /// The kernel that is studied.
     pub(super) tuned: &'a Tuned<'a>,
+    /// The kernels that it is a study of, each with its place in the record: the same test may have several names.
+    pub(super) kernels: Vec<(usize, &'a Tuned<'a>)>,
     pub(super) scalar: ScalarName,
     pub(super) rays: u64,
+}
+
+impl<'a> PlannedStudy<'a> {
+    /// Plans the study of a kernel with its place in the record, unless a study of the same test is planned: then the
+    /// kernel has its results.
+    pub(super) fn plan(
+        planned: &mut Vec<PlannedStudy<'a>>,
+        (place, tuned): (usize, &'a Tuned<'a>),
+        scalar: ScalarName,
+        rays: u64,
+    ) {
+        let mut known = planned.iter_mut();
+        match known.find(|it| it.scalar == scalar && it.tuned.is_studied_with(tuned)) {
+            Some(study) => study.kernels.push((place, tuned)),
+            None => planned.push(PlannedStudy {
+                tuned,
+                kernels: vec![(place, tuned)],
+                scalar,
+                rays,
+            }),
+        }
+    }
 }
 
 impl EpsilonRun<'_> {

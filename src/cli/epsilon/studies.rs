@@ -64,9 +64,11 @@ impl EpsilonRun<'_> {
                 F::try_elsewhere(&setting, study, scene, self.pass.of(rays));
             }
         }
-        let mut parts = Vec::with_capacity(begun.len());
+        let mut parts = Vec::new();
         for (begun, study) in begun.iter().zip(&studies) {
-            parts.push((begun.planned.place, self.part(begun, study)?));
+            for (place, tuned) in &begun.planned.kernels {
+                parts.push((*place, self.part(begun, tuned, study)?));
+            }
         }
         Ok(parts)
     }
@@ -159,14 +161,16 @@ impl EpsilonRun<'_> {
         found.map_err(|error| fault(entry, error))
     }
 
-    /// The part of the record, and the kernel's nanoseconds a ray.
+    /// The part of the record of a kernel that was studied, under this name or another, and its nanoseconds a ray.
     fn part<F: Advised>(
         &self,
         begun: &BegunStudy<'_, F>,
+        tuned: &Tuned<'_>,
         study: &SceneStudy<F>,
     ) -> Result<StudiedKernel, Failure> {
-        let PlannedStudy { tuned, rays, .. } = begun.planned;
-        let setting = self.setting_of(begun, None)?;
+        let rays = begun.planned.rays;
+        let judged = self.judged(tuned)?;
+        let setting = self.setting(tuned, &judged, None)?;
         let mut part = kernel_part(&setting, &tuned.row.contract, study, self.max_error);
         part.segments = self.segments::<F>(tuned.row);
         part.rays = (rays < self.pass.count).then_some(rays);

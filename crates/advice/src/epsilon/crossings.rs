@@ -69,13 +69,14 @@ impl<F: Scalar> Setting<'_, F> {
         let own_cases = made.chunk.cases.len();
         let around = &made.around;
         let (margins, _) = self.margins(&around.cases);
+        let mut kept = Vec::new();
         for (group, others) in self.crossings(&made) {
             let own = MeasuredGroup {
                 places: group.clone(),
                 margins: &prepared.margins[group.clone()],
                 relative: OnceCell::new(),
             };
-            let mut kept = Vec::new();
+            kept.clear();
             for i in others {
                 let is_its_own = !is_moved(&around.truths[i], &self.row.contract);
                 let place = own_cases + i;
@@ -97,7 +98,7 @@ impl<F: Scalar> Setting<'_, F> {
             let start = prepared.margins.len();
             prepared.margins.extend_from_within(group.clone());
             prepared.others.extend(group);
-            for i in kept {
+            for &i in &kept {
                 prepared.margins.push(margins[i]);
                 prepared.others.push(own_cases + i);
             }

@@ -35,17 +35,17 @@ impl<F: Scalar> Setting<'_, F> {
         let epsilons = self.row.epsilons::<F>();
         let mut all = vec![F::zero(); cases.len() * gates.len()];
         self.subject.margins(info, cases, &mut all, values);
-        let is_fixed = |gate: usize| !self.knobs.contains(&Knob::Gate(gate));
+        let is_fixed = |gate: &usize| !self.knobs.contains(&Knob::Gate(*gate));
+        let fixed: Vec<usize> = (0..gates.len()).filter(is_fixed).collect();
         let of_case = |i: usize| {
             let row = &all[i * gates.len()..(i + 1) * gates.len()];
             if row.iter().any(|margin| margin.is_nan()) {
                 return [F::from_f64(f64::NAN); MOST_KNOBS];
             }
-            let refused = (0..gates.len()).any(|g| is_fixed(g) && row[g] < epsilons[g]);
-            let mut margins = [F::infinity(); MOST_KNOBS];
-            if refused {
+            if fixed.iter().any(|gate| row[*gate] < epsilons[*gate]) {
                 return [-F::infinity(); MOST_KNOBS];
             }
+            let mut margins = [F::infinity(); MOST_KNOBS];
             for (margin, knob) in margins.iter_mut().zip(self.knobs) {
                 *margin = match knob {
                     Knob::Gate(gate) => row[*gate],

@@ -45,6 +45,7 @@ impl Refuse {
     }
 
     /// The largest epsilon under which `x` passes.
+    #[inline(always)]
     pub fn margin<R: Real>(self, x: &R) -> R {
         match self {
             Refuse::AtMost | Refuse::UnlessAbove if !x.is_nan() => x.just_below(),
@@ -53,6 +54,7 @@ impl Refuse {
     }
 
     /// The least upper bound of the epsilons under which `x` passes.
+    #[inline(always)]
     pub fn threshold<R: Real>(self, x: &R) -> R {
         match self {
             _ if !x.is_nan() => x.clone(),

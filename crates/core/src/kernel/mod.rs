@@ -27,6 +27,8 @@ mod epsilon_text;
 pub mod gate;
 mod generic;
 mod margins;
+#[cfg(feature = "margins")]
+mod one_test;
 mod preset;
 mod recording;
 mod registry;
