@@ -35,7 +35,7 @@ mod tests {
         if x.is_nan() { u64::MAX } else { x.to_bits() }
     }
 
-    /// All that a study reads of a kernel on a case: its margins, what a hit would report, and its verdicts.
+    /// All that a study reads of a kernel on a case: its margins, the values of a hit, and its verdicts.
     fn answers<F: Scalar>(entry: &Entry, case: &Case<F>) -> Vec<u64> {
         let (info, subject) = (entry.info, F::subject(entry).unwrap());
         let (cases, width) = ([*case], info.gates.len());
@@ -63,7 +63,7 @@ mod tests {
         Some(found.hex())
     }
 
-    /// What a study reads of kernels besides their answers, and their programs, path by path.
+    /// The rest that a study reads of a kernel, and its programs, path by path.
     fn description(entry: &Entry) -> String {
         let info = entry.info;
         let paths = f32::subject(entry).unwrap().gated().unwrap().paths();
