@@ -117,7 +117,9 @@ fn write_family<F: Scalar>(
 
 fn verify(path: &str) -> Result<Status, Failure> {
     let (mut report, mut nothing) = (Vec::new(), true);
+    let progress = Progress::without_end(path, false);
     for file in corpus_files(path)? {
+        progress.tell(file.clone());
         let stored = read_corpus(&file)?;
         let with_truth = stored
             .iter()
@@ -159,6 +161,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
         nothing &= lines.is_empty();
         let folder = manifest_path.parent().unwrap_or(Path::new("."));
         for (number, line) in &lines {
+            progress.tell(format!("{name}: line {number} of {}", lines.len()));
             let mesh = match line {
                 ManifestLine::Set(_) => Vec::new(),
                 ManifestLine::Mesh(line) => {
@@ -179,6 +182,7 @@ fn verify(path: &str) -> Result<Status, Failure> {
             "{name}: {sets} generated sets and {meshes} meshes are the same again"
         ));
     }
+    progress.finish();
     if nothing {
         return Err(Failure::nothing(format!("{path}: no case to verify")));
     }

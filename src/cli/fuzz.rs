@@ -230,7 +230,7 @@ impl Session {
             .filter_map(|find| find.found.seconds)
             .fold(0.0, f64::max);
         Session {
-            progress: Progress::without_end(arguments.quiet),
+            progress: Progress::without_end("the first round", arguments.quiet),
             sessions: state.sessions.saturating_add(1),
             seconds_before: state.seconds.max(last),
             finds_before: finds.len(),

@@ -26,6 +26,13 @@ const LONG: Duration = Duration::from_secs(600);
 impl Progress {
     /// With a total in some unit; hidden if `quiet` or not on a terminal.
     pub fn new(total: u64, unit: &str, quiet: bool) -> Progress {
+        let progress = Progress::undrawn(total, unit, quiet);
+        // The line stands there before the first work is done.
+        progress.bar.tick();
+        progress
+    }
+
+    fn undrawn(total: u64, unit: &str, quiet: bool) -> Progress {
         let hidden = quiet || !std::io::stderr().is_terminal();
         let target = if hidden {
             ProgressDrawTarget::hidden()
@@ -49,8 +56,6 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style.with_key("left", left));
         }
-        // The line stands there before the first work is done.
-        bar.tick();
         Progress {
             bar,
             start: Instant::now(),
@@ -69,12 +74,13 @@ impl Progress {
         )
     }
 
-    /// For work without an end, which [`Progress::tell`] describes.
-    pub fn without_end(quiet: bool) -> Progress {
-        let progress = Progress::new(0, "", quiet);
+    /// For work whose size nobody knows: a line that says what is done, until [`Progress::tell`] has another one.
+    pub fn without_end(first: &str, quiet: bool) -> Progress {
+        let progress = Progress::undrawn(0, "", quiet);
         if let Ok(style) = ProgressStyle::with_template("{spinner} {wide_msg}") {
             progress.bar.set_style(style);
         }
+        progress.tell(first.to_owned());
         progress
     }
 

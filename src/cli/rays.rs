@@ -9,6 +9,7 @@ use super::exit::{Failure, Status};
 use super::flags::find_scalar;
 use super::input::{open, read_mesh};
 use super::known::{KnownCounts, KnownSubject};
+use super::progress::Progress;
 use crate::arith::ScalarName;
 use crate::expect::RecordComparison;
 use crate::files::InputError;
@@ -112,17 +113,20 @@ impl<'a> RaysRun<'a> {
         match self.asked::<F>()? {
             Asked::Rays(rays) if self.arguments.kind()? == AnswerKind::All => {
                 let outputs = output.pairs(AllHits::FORMATS)?;
-                let found = F::found_all(&scene, &rays).map_err(|bad| self.bad(bad))?;
+                let found = self.shown(|| F::found_all(&scene, &rays));
+                let found = found.map_err(|bad| self.bad(bad))?;
                 output.write(outputs, &found)?;
             }
             Asked::Rays(rays) => {
                 let outputs = output.pairs(FoundHits::FORMATS)?;
-                let found = F::found(&scene, &rays).map_err(|bad| self.bad(bad))?;
+                let found = self.shown(|| F::found(&scene, &rays));
+                let found = found.map_err(|bad| self.bad(bad))?;
                 output.write(outputs, &found)?;
             }
             Asked::Points(points) => {
                 let outputs = output.pairs(LocatedPoints::FORMATS)?;
-                let located = F::located(&scene, &points).map_err(|bad| self.bad(bad))?;
+                let located = self.shown(|| F::located(&scene, &points));
+                let located = located.map_err(|bad| self.bad(bad))?;
                 output.write(outputs, &located)?;
             }
         }
@@ -197,7 +201,16 @@ impl<'a> RaysRun<'a> {
             program,
             tells_each: self.tells_each,
         };
-        F::judged(run).map_err(|bad| self.bad(bad))
+        self.shown(|| F::judged(run)).map_err(|bad| self.bad(bad))
+    }
+
+    /// The result of some work, with a line on a terminal as long as it takes.
+    fn shown<T>(&self, work: impl FnOnce() -> T) -> T {
+        let quiet = self.arguments.output.quiet || self.arguments.program.is_given();
+        let progress = Progress::without_end("what the rays meet, exactly", quiet);
+        let found = work();
+        progress.finish();
+        found
     }
 
     /// The answers of a program that hairline runs, or else of a file.
@@ -260,7 +273,7 @@ impl<'a> RaysRun<'a> {
     fn made<F: RaysScalar>(&self, count: u64) -> Result<Vec<Ray<F>>, Failure> {
         let kinds = kinds(&self.arguments.kinds)?;
         let seed = self.arguments.seed.unwrap_or(1);
-        let made = F::made(self.mesh, &kinds, count, seed);
+        let made = self.shown(|| F::made(self.mesh, &kinds, count, seed));
         made.map_err(|error| {
             let of_scalar = match error {
                 NoTargets::TooLarge => format!(" in {}", F::NAME),

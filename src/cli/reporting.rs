@@ -265,8 +265,7 @@ impl Execution<'_> {
         record.provenance.kernel_files = kernels.plugins.files();
         // Of the whole plan: a part of a run leaves it to `merge`.
         if self.illustrate && shard.is_none() {
-            let progress = Progress::without_end(quiet);
-            progress.tell("what is proved of the kernels".to_owned());
+            let progress = Progress::without_end("what is proved of the kernels", quiet);
             illustrate(plan, &sums, &mut record);
             progress.finish();
         }

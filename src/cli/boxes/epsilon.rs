@@ -45,7 +45,7 @@ pub fn run(arguments: &EpsilonArguments) -> Result<Status, Failure> {
         sources: sources.iter().map(ToString::to_string).collect(),
         rows: Vec::new(),
     };
-    let progress = Progress::without_end(arguments.output.quiet);
+    let progress = Progress::without_end("slab tests and gates", arguments.output.quiet);
     for setup in &setups {
         tells_margins(setup.entry, "hairline boxes audit").map_err(Failure::usage)?;
         for (place, gate) in setup.gates().iter().enumerate() {
@@ -131,6 +131,7 @@ impl Advice {
             false_hits_at_zero: 0,
             false_hits_at_largest: 0,
         };
+        progress.tell(format!("{}, gate {}, {}", row.test, row.gate, row.scalar));
         for source in sources {
             let question = Question {
                 setup,
