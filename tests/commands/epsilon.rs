@@ -213,7 +213,7 @@ fn kernels_that_are_one_test_have_the_results_that_each_has_alone() {
     // The second does not share a test with the others, and stands between them.
     let names = ["convex-polygon", "cramer", "plane-inside-out-precomputed"];
     let run = |kernels: &str| {
-        let scene = ["--scene", "room", "-n", "2000"];
+        let scene = ["--scene", "room", "-n", "500"];
         let all = [
             &["epsilon", "-q", "--format", "json", "-k", kernels],
             &scene[..],
