@@ -27,7 +27,7 @@ const fn room(source: &'static str, alone: Option<&'static str>, most_tokens: us
 
 /// The crates, the lowest first.
 const ROOMS: [Room; 18] = [
-// With the test whose margin is known before the ray: `exact`; the table of kernels that are one test (issue 61), and two
+    // With the test whose margin is known before the ray: `exact`; the table of kernels that are one test (issue 61), and two
     // arithmetics of devices (issue 63).
     room("crates/core/src", None, 89_430),
     room("crates/checker/src", Some("checker"), 31_000),
