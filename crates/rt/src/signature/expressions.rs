@@ -320,20 +320,14 @@ pub const SUBNORMAL: &[&str] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signature::generic;
 
-    /// The evaluations of an expression differ on these numbers, so that a device's results tell them apart.
+    /// The evaluations of an expression differ on the numbers that devices get, so that a device's results tell them apart.
     #[test]
     fn evaluations_differ() {
-        let numbers = |index: u32| -> Numbers {
-            let number = |k: usize| {
-                let mixed = (8 * index + k as u32).wrapping_mul(0x9e37_79b9) >> 8;
-                1.0 + mixed as f32 / 16_777_216.0
-            };
-            [0, 1, 2, 3, 4, 5, 6, 7].map(number)
-        };
         for expression in EXPRESSIONS {
             let results = |evaluate: fn(Numbers) -> f32| -> Vec<f32> {
-                (0..1000).map(|index| evaluate(numbers(index))).collect()
+                (0..1000).map(|index| evaluate(generic(index))).collect()
             };
             for (place, (name, evaluate)) in expression.evaluations.iter().enumerate() {
                 for (other, other_evaluate) in &expression.evaluations[..place] {
