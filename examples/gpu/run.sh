@@ -6,4 +6,4 @@ cd "$(dirname "$0")"
 hairline=${HAIRLINE:-cargo run --quiet --release --manifest-path ../../Cargo.toml --}
 cargo build --quiet --locked
 $hairline audit --kernel-cmd target/debug/hairline-gpu-example --kernel moller-trumbore \
-    --arithmetic ieee,fma,ftz,fma-ftz,lavapipe,nvidia-vulkan --scalar f32 "$@"
+    --arithmetic ieee,fma,ftz,fma-ftz,rearranged,fma-ftz-rearranged --scalar f32 "$@"

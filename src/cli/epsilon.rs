@@ -144,6 +144,15 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
         ));
     }
     let studied = arguments.sources.studied_rays(arguments.output.quiet)?;
+    let exact = arguments.kernels.exact_row()?;
+    if let Some(row) = exact.as_ref().filter(|_| studied.scene.is_some()) {
+        // Where gates are chosen by name it has none of them.
+        tuned.extend(arguments.knobs(row).ok().map(|knobs| Tuned {
+            row,
+            sets: vec![row],
+            knobs,
+        }));
+    }
     match reasons.first() {
         Some(reason) if tuned.is_empty() => return Err(Failure::usage(reason)),
         _ if arguments.output.quiet => {}

@@ -21,7 +21,7 @@ pub struct KernelArguments {
     #[arg(long, short, value_delimiter = ',', value_name = "NAME")]
     kernel: Vec<String>,
 
-    /// The arithmetic in which kernels compute, or several side by side: ieee, fma, ftz, fma-ftz (see
+    /// The arithmetic in which kernels compute, or several side by side: ieee, fma, ftz, rearranged and more (see
     /// `hairline list arithmetics`); for one kernel alone write its name with +fma
     /// [default: as each kernel's name says]
     #[arg(long, value_delimiter = ',', value_name = "NAME,...", help_heading = RUNNING)]

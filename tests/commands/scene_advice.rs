@@ -715,7 +715,8 @@ fn without_a_kernel_all_stand_in_one_table_the_cheapest_first() {
     let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
     let text = read("a.txt");
     let record: SceneResult = json_schema::result(&read("a.json"));
-    assert!(text.lines().count() <= 30, "{text}");
+    // With so few rays the title names those that are about as good, in a line of its own.
+    assert!(text.lines().count() <= 31, "{text}");
     let rows: Vec<Vec<&str>> = text
         .lines()
         .filter(|line| {

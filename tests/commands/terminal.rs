@@ -90,7 +90,7 @@ fn every_screen_fits_a_terminal() {
             &[
                 "epsilon", "--scene", "room", "--scalar", "f32", "-n", "1000",
             ],
-            30,
+            31,
         ),
         (
             &[

@@ -37,10 +37,10 @@ pub struct Arguments {
     /// The mesh in all sizes too: scaled by 1e-44 to 1e37
     #[arg(long)]
     scales: bool,
-    /// Rays from outside too, that start 1 to 100,000 times the size of the mesh away
+    /// Rays from outside too, that start 1 to 100,000 times the diagonal of the mesh's box away
     #[arg(long)]
     far: bool,
-    /// Writes lost rays of the mesh as it is into a file for `hairline rays MESH FILE`
+    /// Writes lost rays of the mesh as it is, those from outside too, into a file for `hairline rays MESH FILE`
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     lost: Option<String>,
     /// The counts as JSON, too
@@ -48,7 +48,7 @@ pub struct Arguments {
     output: Option<String>,
 }
 
-/// How far away rays start, in sizes of the mesh.
+/// How far away rays start, in diagonals of the mesh's box.
 const SIZES_AWAY: [f32; 6] = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5];
 
 /// The powers of ten that meshes are scaled by.
@@ -90,14 +90,20 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     let mut from_afar = Vec::new();
     for sizes in SIZES_AWAY.into_iter().filter(|_| arguments.far) {
         let distance = sizes * world.size();
-        // Where rays are rounded by more than there is room inside, none of them surely meets the mesh.
-        if !distance.is_finite() || world.balls_seen_from(distance).is_empty() {
+        if !world.is_seen_from(distance) {
+            from_afar.push(FromAfar {
+                sizes,
+                counted: None,
+            });
             continue;
         }
         progress(&format!("from {sizes} times its size away"));
         let structure = build_one(&device, &whole, Build::FastTrace)?;
         let counted = aimer.count(&world, &structure, Aim::Vertex, Start::Away(distance))?;
-        from_afar.push(FromAfar { sizes, counted });
+        from_afar.push(FromAfar {
+            sizes,
+            counted: Some(counted),
+        });
     }
     let mut scaled = Vec::new();
     for exponent in EXPONENTS.filter(|_| arguments.scales) {

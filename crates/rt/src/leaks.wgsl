@@ -39,12 +39,14 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     begin(id.x, task.seed);
     let inside = point_inside();
     let to_target = target_point() - inside;
-    if all(to_target == vec3f(0.0)) { return; }
+    let largest = max(max(abs(to_target.x), abs(to_target.y)), abs(to_target.z));
+    if largest == 0.0 { return; }
     var origin = inside;
     var direction = to_target;
     var last = FAR;
     if task.distance > 0.0 {
-        origin = inside + task.distance * normalize(to_target);
+        // So scaled, squares of it are in range at every size.
+        origin = inside + task.distance * normalize(to_target / largest);
         direction = inside - origin;
         // Only as far as the point inside: what lies behind it would hide a loss.
         last = 1.0;

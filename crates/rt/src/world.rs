@@ -111,6 +111,12 @@ impl World {
         seen
     }
 
+    /// True if rays from so far away have room to end inside, and their numbers are in the middle of the range of f32.
+    pub fn is_seen_from(&self, distance: f32) -> bool {
+        let is_in_range = (1e-30..1e30).contains(&self.size()) && distance < 1e30;
+        is_in_range && !self.balls_seen_from(distance).is_empty()
+    }
+
     /// The length of the box's diagonal.
     pub fn size(&self) -> f32 {
         let sides = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
@@ -257,7 +263,11 @@ mod tests {
         // Two ulps of a coordinate of the origin.
         let rounded = 2.0 * (afar.next_up() - afar);
         assert!(seen.iter().all(|[_, _, _, radius]| rounded < *radius));
-        assert!(world.balls_seen_from(1e9 * world.size()).is_empty());
+        assert!(world.is_seen_from(afar) && !world.is_seen_from(1e9 * world.size()));
+        for scale in [1e-35, 1e32] {
+            let world = World::new(&icosphere(), scale, 2).unwrap();
+            assert!(!world.is_seen_from(10.0 * world.size()), "{scale}");
+        }
     }
 
     #[test]

@@ -44,14 +44,13 @@ impl Arithmetic {
         fused: true,
         ..Arithmetic::FTZ
     };
-    /// Shaders on Mesa's lavapipe, where nothing is marked `precise`: sums are rearranged.
-    pub const LAVAPIPE: Arithmetic = Arithmetic {
+    /// Sums are rearranged.
+    pub const REARRANGED: Arithmetic = Arithmetic {
         rearranged: true,
         ..Arithmetic::IEEE
     };
-    /// Shaders on NVIDIA's Vulkan, where nothing is marked `precise`: all three. Quotients are rounded here, and
-    /// there 70 % of them are; the others are off by up to 2 ulps.
-    pub const NVIDIA_VULKAN: Arithmetic = Arithmetic {
+    /// All three.
+    pub const FMA_FTZ_REARRANGED: Arithmetic = Arithmetic {
         rearranged: true,
         ..Arithmetic::FMA_FTZ
     };
@@ -62,8 +61,8 @@ impl Arithmetic {
         Arithmetic::FMA,
         Arithmetic::FTZ,
         Arithmetic::FMA_FTZ,
-        Arithmetic::LAVAPIPE,
-        Arithmetic::NVIDIA_VULKAN,
+        Arithmetic::REARRANGED,
+        Arithmetic::FMA_FTZ_REARRANGED,
     ];
 
     /// The name on a command line and, after a `+`, in a kernel's name.
@@ -90,11 +89,11 @@ impl Arithmetic {
             ),
             (true, true, false) => ("fma-ftz", "fused products, and subnormal numbers are zero"),
             (false, false, true) => (
-                "lavapipe",
+                "rearranged",
                 "sums rearranged: a*h + b*h is (a+b)*h, (a+b)-a is b",
             ),
             // Of the arithmetics that rearrange there are two.
-            (_, _, true) => ("nvidia-vulkan", "fma-ftz, and sums are rearranged"),
+            (_, _, true) => ("fma-ftz-rearranged", "fma-ftz, and sums are rearranged"),
         }
     }
 

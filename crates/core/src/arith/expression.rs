@@ -102,14 +102,14 @@ impl<F: Float, N: Copy> Expression<F, N> {
 
     pub(super) fn sum(a: Part<F, N>, b: Part<F, N>) -> Self {
         Expression {
-            name: Name::of(Kind::Sum, in_one_order(a, b)),
+            name: Name::of(Kind::Sum, [a.name.0, b.name.0]),
             made_of: MadeOf::Sum(a, b),
         }
     }
 
     pub(super) fn product(a: Part<F, N>, b: Part<F, N>) -> Self {
         Expression {
-            name: Name::of(Kind::Product, in_one_order(a, b)),
+            name: Name::of(Kind::Product, [a.name.0, b.name.0]),
             made_of: MadeOf::Product(a, b),
         }
     }
@@ -122,10 +122,4 @@ impl<F: Float, N: Copy> Expression<F, N> {
     pub(super) fn negation(&self) -> Self {
         Expression::named(self.name.negation())
     }
-}
-
-/// a + b and b + a are one expression, and so are products.
-fn in_one_order<F, N>(a: Part<F, N>, b: Part<F, N>) -> [u64; 2] {
-    let [a, b] = [a.name.0, b.name.0];
-    [a.min(b), a.max(b)]
 }

@@ -1,6 +1,6 @@
-//! Sums as compilers of shaders rearrange them. The rules look at expressions, never at values, and they do not look
-//! through a minus: `(a - b) - a` is `-b`, but `a - (a + b)` and `a*h - b*h` stay. Mesa's are these (`hairline-rt
-//! signature` asks a device).
+//! Sums as compilers of shaders rearrange them, by the two rules that two devices were seen to have (`hairline-rt
+//! signature`). The rules look at expressions, never at values, each sum is rearranged once, and a minus hides what it
+//! stands before: `(a - b) - a` is `-b`, but `a - (a + b)` and `a*h - b*h` stay. Compilers have other rules besides.
 
 /// A factor or a term: it is known whether another one is the same expression.
 pub(super) trait Operand: Copy {

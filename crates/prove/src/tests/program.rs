@@ -103,7 +103,7 @@ fn margins_that_a_program_computes<F: Scalar>(entry: &Entry) -> usize {
 #[test]
 fn every_recorded_program_computes_the_margins_of_its_kernel() {
     for entry in KERNELS {
-        for form in ["", "+fma", "+lavapipe"] {
+        for form in ["", "+fma", "+rearranged"] {
             let name = format!("{}{form}", entry.info.name);
             let entry = find(&name).expect("a kernel");
             let counts = [

@@ -14,6 +14,7 @@ use crate::audit::Trials;
 use crate::lists::alike;
 use crate::page::{Block, Cell, Command, Head, Page, Row, Table};
 use hairline_advice::epsilon::{CostSeen, Costs};
+use hairline_core::exact;
 use hairline_record::{Rate, group_digits};
 
 /// A kernel, and the results of what its `use` line says.
@@ -132,6 +133,9 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     }
 }
 
+/// The row of the exact test says besides how it is timed.
+const EXACT: &str = "no other epsilon; ns: triangle and ray made ready too (docs/design/margin.md)";
+
 /// The kernels of a scalar, the cheapest first, each with those that were wrong as often with the same numbers.
 fn ranked<'a>(record: &'a SceneResult, scalar: ScalarName) -> Vec<(Best<'a>, Vec<Best<'a>>)> {
     let parts = record.kernels.iter().filter(|part| part.scalar == scalar);
@@ -217,6 +221,9 @@ fn row(whole: &SceneRecord, ((part, best), like): &(Best, Vec<Best>)) -> Row {
         "no numbers are good; least bad:"
     };
     let mut below = vec![format!("{lead} {}", fixed.parts.join("  and  "))];
+    if part.kernel == exact::NAME {
+        below.push(EXACT.to_owned());
+    }
     let follows = is_scale_free_better(&whole.result, part);
     if let Some(relative) = part.relative.as_ref().filter(|_| follows) {
         below.push(format!(

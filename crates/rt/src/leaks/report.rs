@@ -31,9 +31,10 @@ pub struct Row {
 /// Counts of rays at vertices that start outside.
 #[derive(Serialize)]
 pub struct FromAfar {
-    /// How far away, in sizes of the mesh.
+    /// How far away, in diagonals of the mesh's box.
     pub sizes: f32,
-    pub counted: Aimed,
+    /// None where the numbers of f32 do not hold such rays.
+    pub counted: Option<Aimed>,
 }
 
 /// Counts of rays at vertices of the mesh in some size.
@@ -83,14 +84,16 @@ impl Leaks {
 
     fn all(&self) -> impl Iterator<Item = &Aimed> {
         let rows = self.rows.iter().flat_map(|row| &row.aimed);
-        let from_afar = self.from_afar.iter().map(|it| &it.counted);
+        let from_afar = self.from_afar.iter().filter_map(|it| it.counted.as_ref());
         let scaled = self.scaled.iter().map(|it| &it.counted);
         rows.chain(from_afar).chain(scaled)
     }
 
     /// Lost rays of the mesh as it is, in one structure.
     pub fn lost_rays(&self) -> Vec<Ray<f32>> {
-        let aimed = self.rows.iter().take(1).flat_map(|row| &row.aimed);
+        let from_inside = self.rows.iter().take(1).flat_map(|row| &row.aimed);
+        let from_afar = self.from_afar.iter().filter_map(|it| it.counted.as_ref());
+        let aimed = from_inside.chain(from_afar);
         let mut rays: Vec<Ray<f32>> = aimed.flat_map(|aimed| aimed.lost_rays.clone()).collect();
         let bits = |ray: &Ray<f32>| [ray.origin, ray.direction].map(|it| it.map(f32::to_bits));
         rays.sort_by_key(bits);
@@ -104,7 +107,7 @@ impl fmt::Display for Leaks {
         writeln!(f, "{}", self.device)?;
         writeln!(
             f,
-            "{}: {} faces, {} rays of each count, each from a point inside: it has to meet the mesh",
+            "{}: {} faces, {} rays of each count, each from or to a point inside: it has to meet the mesh",
             self.mesh,
             group_digits(self.faces),
             group_digits(self.rays)
@@ -182,15 +185,15 @@ impl Leaks {
         writeln!(f)?;
         writeln!(
             f,
-            "Rays from outside to a point inside, through a vertex, which start so many times the mesh's size away"
+            "Rays from outside to a point inside, past a vertex, which start so many diagonals of the mesh's box away"
         )?;
         for FromAfar { sizes, counted } in &self.from_afar {
             let sizes = group_digits(*sizes as u64);
-            writeln!(
-                f,
-                "  {sizes:>7}: lost {}",
-                share(counted.lost, counted.rays)
-            )?;
+            let told = match counted {
+                Some(counted) => format!("lost {}", share(counted.lost, counted.rays)),
+                None => "numbers of f32 do not hold such rays".to_owned(),
+            };
+            writeln!(f, "  {sizes:>7}: {told}")?;
         }
         Ok(())
     }

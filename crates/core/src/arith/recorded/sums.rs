@@ -1,6 +1,6 @@
 //! Sums that are rearranged, on the tape.
 
-use super::{Operation, Place, Recorded, on_tape};
+use super::{Operation, Place, Recorded, on_tape, push};
 use crate::arith::rearranged::{self, MadeOf, Operand, Rest};
 
 /// A number on the tape, or the negative of one.
@@ -66,8 +66,9 @@ pub(super) fn rearranged(terms: [Signed; 2]) -> Option<Recorded> {
     Some(match rest {
         Rest::Term(term) => term.recorded(),
         Rest::Product { terms, factor } => {
-            let [a, b] = terms.map(Signed::recorded);
-            a.sum(&b).product(&factor.recorded()).clone()
+            let [a, b, factor] = [terms[0], terms[1], factor].map(|it| it.recorded().place);
+            let sum = push(Operation::Add(a, b));
+            Recorded::at(Operation::Mul(sum, factor))
         }
     })
 }
