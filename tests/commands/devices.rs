@@ -15,7 +15,9 @@ fn on_a_device(words: &str) -> Option<String> {
     let home = Path::new(HERE).join("examples/gpu");
     let program = home.join("target/debug/hairline-gpu-example");
     let written = |path: &Path| fs::metadata(path).and_then(|it| it.modified()).ok();
-    let mut sources = fs::read_dir(home.join("src")).unwrap();
+    let mut sources = ["src", "src/wrapped"]
+        .iter()
+        .flat_map(|folder| fs::read_dir(home.join(folder)).unwrap());
     if sources.any(|source| written(&program) < written(&source.unwrap().path())) {
         not_tested("shaders on a device: cargo build --manifest-path examples/gpu/Cargo.toml");
         return None;

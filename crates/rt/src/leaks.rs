@@ -17,9 +17,8 @@ use std::process::ExitCode;
 
 /// Rays from inside a closed mesh that the device lets out, or hits twice
 ///
-/// Rays start inside, so each has to meet the mesh, an odd number of times where it only crosses it. With --far they also come from
-/// outside. The first lost rays are decided
-/// again, exactly. Ends with 1 if one of these has to hit.
+/// Rays start inside, so each has to meet the mesh, an odd number of times where it only crosses it. With --far others come from
+/// outside and end inside. The first lost rays are decided again, exactly. Ends with 1 if one of these has to hit.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// A closed mesh: OBJ, PLY, STL or glTF; numbers are rounded to f32
@@ -88,6 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
     }
 
     let mut from_afar = Vec::new();
+    let structure = build_one(&device, &whole, Build::FastTrace)?;
     for sizes in SIZES_AWAY.into_iter().filter(|_| arguments.far) {
         let distance = sizes * world.size();
         if !world.is_seen_from(distance) {
@@ -97,8 +97,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
             });
             continue;
         }
-        progress(&format!("from {sizes} times its size away"));
-        let structure = build_one(&device, &whole, Build::FastTrace)?;
+        progress(&format!("from {sizes} diagonals of its box away"));
         let counted = aimer.count(&world, &structure, Aim::Vertex, Start::Away(distance))?;
         from_afar.push(FromAfar {
             sizes,

@@ -1,5 +1,4 @@
-//! Sums as compilers of shaders rearrange them, by the two rules that two devices were seen to have (`hairline-rt
-//! signature`). The rules look at expressions, never at values, each sum is rearranged once, and a minus hides what it
+//! Sums as compilers of shaders rearrange them, by two rules that two devices were seen to have. The rules look at expressions, never at values, each sum is rearranged once, and a minus hides what it
 //! stands before: `(a - b) - a` is `-b`, but `a - (a + b)` and `a*h - b*h` stay. Compilers have other rules besides.
 
 /// A factor or a term: it is known whether another one is the same expression.

@@ -133,7 +133,7 @@ pub(super) fn page(whole: &SceneRecord) -> Page {
     }
 }
 
-/// The row of the exact test says besides how it is timed.
+/// A line below the row of the exact test.
 const EXACT: &str = "no other epsilon; ns: triangle and ray made ready too (docs/design/margin.md)";
 
 /// The kernels of a scalar, the cheapest first, each with those that were wrong as often with the same numbers.
