@@ -11,13 +11,13 @@ use crate::arith::ScalarName;
 use crate::audit::{EpsilonChoice, Source, shell_word};
 use crate::case::{Parameters, Scene};
 use crate::family::{FAMILIES, Family, Stratum};
-use crate::kernel::{self, Entry};
+use crate::kernel::{self, Entry, Scalar};
 use crate::prove::repair::Guarded;
 use crate::report::page::{Block, Page};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hairline_core::Error;
-use hairline_repair::smaller::{self, RepairRays};
+use hairline_repair::smaller::{self, Guard, RepairRays};
 use hairline_repair::{Asks, Language, function_name, source_code};
 
 fn languages() -> impl TypedValueParser<Value = Language> {
@@ -237,20 +237,25 @@ impl RepairArguments {
             let passes = 1 + u64::from(guarded.is_ok());
             let total = passes * total_indices(&rays.sources, name.alone())?;
             let progress = Progress::new(total, "rays", self.quiet);
-            let (asks, guarded) = match guarded {
+            let (asks, guard) = match guarded {
                 Ok(guarded) => {
                     let asks = in_named_scalar!(name, F => Asks::count::<F>(&guarded, &sources, &progress));
-                    let text = format!(
+                    let about = format!(
                         "Guarded, as --emit writes it, no answer is wrong, which is proved; it asks on {} of these rays{aimed}.",
                         asks.whole()
                     );
-                    (Some(asks), text)
+                    let selector = Some(entry.selector());
+                    (Some(asks), Guard { about, selector })
                 }
-                Err(why) => (None, format!("It cannot be guarded: {why}.")),
+                Err(why) => {
+                    let about = format!("It cannot be guarded: {why}.");
+                    let selector = in_named_scalar!(name, F => guarded_without_form::<F>(entry));
+                    (None, Guard { about, selector })
+                }
             };
             blocks.push(Block::Heading(format!("{} in {name}", row.label())));
             blocks.extend(
-                in_named_scalar!(name, F => smaller::blocks::<F>(&row, &rays, guarded, &progress)),
+                in_named_scalar!(name, F => smaller::blocks::<F>(&row, &rays, guard, &progress)),
             );
             progress.finish();
             blocks.extend(asks.filter(|_| is_scene).iter().flat_map(Asks::blocks));
@@ -304,4 +309,12 @@ impl RepairArguments {
         };
         write_result(&path, |out| out.write_all(text.as_bytes()))
     }
+}
+
+/// The words that choose a kernel in its plain form, where it has another one and can be guarded as it is.
+fn guarded_without_form<F: Scalar>(entry: &Entry) -> Option<String> {
+    let (plain, _form) = entry.info.name.split_once('+')?;
+    let plain = kernel::find(plain)?;
+    Guarded::new::<F>(plain).ok()?;
+    Some(plain.selector())
 }

@@ -225,6 +225,7 @@ impl KernelArguments {
         }
         let mut all: Vec<&'static Entry> = Vec::new();
         for entry in entries {
+            refuse_other_name(entry.info.name, &arithmetics)?;
             let variants = match has_others(entry) {
                 true => arithmetics
                     .iter()
@@ -252,5 +253,18 @@ impl KernelArguments {
             return Ok(EpsilonChoice::Source);
         };
         EpsilonChoice::parse(text).map_err(|error| Failure::usage(format!("--epsilon: {error}")))
+    }
+}
+
+/// A kernel whose name says an arithmetic that is not among those asked for.
+fn refuse_other_name(kernel: &str, asked: &[Arithmetic]) -> Result<(), Failure> {
+    let Some((plain, form)) = kernel.split_once('+') else {
+        return Ok(());
+    };
+    match form.parse::<Arithmetic>() {
+        Ok(own) if !asked.contains(&own) => Err(Failure::usage(format!(
+            "--arithmetic: {kernel} computes in {own} by its name: write {plain} for others, or leave out --arithmetic",
+        ))),
+        _ => Ok(()),
     }
 }

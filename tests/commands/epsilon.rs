@@ -321,6 +321,34 @@ fn the_pictures_of_readme_and_guide_are_what_the_program_draws() {
 }
 
 #[test]
+fn a_crack_of_a_gate_that_is_not_studied_refutes_no_proof_of_an_edge() {
+    // The parallel gate keeps its 1e-6 here, and loses a ray at a shared edge.
+    let of = |more: &[&str]| {
+        let all = [
+            "epsilon",
+            "--kernel",
+            "moller-trumbore-culling",
+            "--scene",
+            "room",
+            "--scalar",
+            "f64",
+            "-n",
+            "4000",
+            "-q",
+            "--format",
+            "json",
+        ];
+        let output = hairline(Path::new("."), &[&all[..], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let record: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        record.to_string()
+    };
+    let alone = of(&["--gate", "edge"]);
+    let both = of(&["--gate", "edge,parallel"]);
+    assert!(!alone.contains("-3.84e-13") && both.contains("-3.84e-13"));
+}
+
+#[test]
 fn bad_arguments_are_refused_with_a_reason() {
     let refused = |arguments: &[&str], words: &str| {
         let output = hairline(Path::new("."), &[&["epsilon"], arguments].concat());

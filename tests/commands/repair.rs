@@ -437,6 +437,25 @@ fn what_cannot_be_repaired_is_refused_with_the_reason() {
 }
 
 #[test]
+fn what_is_named_next_can_be_written() {
+    let folder = scratch("repair-next");
+    for (kernel, plain) in [
+        ("moller-trumbore+fma", Some("moller-trumbore")),
+        ("moller-trumbore", Some("moller-trumbore")),
+        ("half-space", None),
+    ] {
+        let all = [
+            "repair", "--kernel", kernel, "--scalar", "f32", "-n", "20", "-q",
+        ];
+        let (text, _) = ends(&folder, &all, 0);
+        let command = text.lines().find(|line| line.contains("--emit c"));
+        let expected = plain.map(|plain| format!("hairline repair --kernel {plain} --emit c"));
+        let found = command.map(|line| line.trim_start_matches("next:").trim().to_owned());
+        assert_eq!(found, expected, "{kernel}: {text}");
+    }
+}
+
+#[test]
 fn the_kernel_of_the_bench_is_the_one_that_is_written() {
     let folder = scratch("repair-bench");
     let (text, _) = ends(

@@ -237,6 +237,11 @@ fn unknown_and_impossible_arithmetics_are_refused_in_one_line() {
         error.contains("cramer+fma has one arithmetic only"),
         "{error}"
     );
+    let error = refused(&["--kernel=cramer+fma", "--arithmetic=ieee"]);
+    assert!(
+        error.contains("cramer+fma computes in fma by its name: write cramer for others"),
+        "{error}"
+    );
     let error = refused(&["--kernel=cramer+fma+ftz"]);
     assert!(error.contains("unknown kernel 'cramer+fma+ftz'"), "{error}");
     let error = refused(&["--kernel=cramer+ieee"]);

@@ -23,6 +23,7 @@ mod frame;
 
 mod asks;
 mod candidates;
+mod tried;
 
 pub mod smaller;
 

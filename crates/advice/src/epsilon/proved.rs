@@ -4,6 +4,7 @@ use super::knob::Knob;
 use super::rays::{RayCount, Rays, WrongKind};
 use super::trials::Setting;
 use crate::arith::{Float, smallest_normal, three_digits};
+use crate::audit::Row;
 use crate::case::{DirectionLength, Scene};
 use crate::engine;
 use crate::family::Stratum;
@@ -24,7 +25,8 @@ pub struct ProvedValue<F> {
 }
 
 /// The values that are proved for each knob; none in scenes whose directions have any length, nor where a proof
-/// assumes more than the sizes of triangles and distances.
+/// assumes more than the sizes of triangles and distances, nor for an edge's epsilon while that of another gate is not
+/// studied: a crack could be that gate's.
 pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<ProvedValue<F>> {
     let Some(scene) = setting.scene else {
         return Vec::new();
@@ -34,11 +36,15 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<ProvedValue<F>> {
     if !is_unit || setting.relative || scene.check_in::<F>().is_err() {
         return Vec::new();
     }
+    let others_are_studied = studies_all_gates(setting.row, setting.knobs);
     let of_knob = |&(k, knob): &(usize, &Knob)| {
         let Knob::Gate(gate) = *knob else {
             return Vec::new();
         };
         let role = setting.row.entry.info.gates[gate].role;
+        if role == Role::Edge && !others_are_studied {
+            return Vec::new();
+        }
         let is_lower = role == Role::Parallel;
         let decided = |count: &RayCount| {
             matches!(
@@ -81,6 +87,13 @@ pub fn proved<F: Scalar>(setting: &Setting<'_, F>) -> Vec<ProvedValue<F>> {
     };
     let knobs: Vec<(usize, &Knob)> = setting.knobs.iter().enumerate().collect();
     engine::map(&knobs, of_knob).into_iter().flatten().collect()
+}
+
+/// True if all gates whose epsilon can be chosen are knobs: of those it is known which rays they refuse themselves.
+fn studies_all_gates(row: &Row, knobs: &[Knob]) -> bool {
+    let all = Knob::all(row);
+    let mut gates = all.iter().filter(|knob| **knob != Knob::LeastT);
+    gates.all(|gate| knobs.contains(gate))
 }
 
 /// Strictly beyond a bound, above it or below its negative, in few digits.
