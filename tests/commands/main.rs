@@ -36,6 +36,7 @@ mod mesh_page;
 mod numbers;
 mod offset;
 mod own;
+mod permitted;
 mod plugin;
 mod program;
 mod prove;
