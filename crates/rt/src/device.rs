@@ -61,9 +61,10 @@ impl Device {
                 }
             )));
         };
+        let passthrough = wgpu::Features::PASSTHROUGH_SHADERS & adapter.features();
         let request = wgpu::DeviceDescriptor {
             label: Some("hairline-rt"),
-            required_features: wgpu::Features::EXPERIMENTAL_RAY_QUERY,
+            required_features: wgpu::Features::EXPERIMENTAL_RAY_QUERY | passthrough,
             required_limits: adapter.limits(),
             // SAFETY: wgpu calls ray queries experimental since its checks of them may have gaps. What is asked here is what their
             // specification allows.
@@ -103,12 +104,60 @@ impl Device {
             self.gpu
                 .create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked())
         };
+        self.pipeline(&module, None)
+    }
+
+    /// True if it takes SPIR-V as it is.
+    pub fn takes_spirv(&self) -> bool {
+        let features = self.gpu.features();
+        features.contains(wgpu::Features::PASSTHROUGH_SHADERS)
+    }
+
+    /// A shader from SPIR-V with an entry point `main`, which nothing but the driver reads. Its buffers are at the bindings
+    /// from 0 up, and it writes to the last one.
+    pub fn spirv_shader(&self, words: &[u32], buffers: u32) -> Shader {
+        let entry = wgpu::PassthroughShaderEntryPoint {
+            name: "main".into(),
+            workgroup_size: (WORKGROUP, 1, 1),
+        };
+        let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
+            label: Some("hairline-rt"),
+            entry_points: vec![entry].into(),
+            spirv: Some(words.into()),
+            ..Default::default()
+        };
+        // SAFETY: as above; the bindings are those of the layout, which the caller says.
+        let module = unsafe { self.gpu.create_shader_module_passthrough(descriptor) };
+        let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..buffers)
+            .map(|binding| storage_at(binding, binding + 1 < buffers))
+            .collect();
+        let group = self
+            .gpu
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: None,
+                entries: &entries,
+            });
+        let layout = self
+            .gpu
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &[Some(&group)],
+                immediate_size: 0,
+            });
+        self.pipeline(&module, Some(&layout))
+    }
+
+    fn pipeline(
+        &self,
+        module: &wgpu::ShaderModule,
+        layout: Option<&wgpu::PipelineLayout>,
+    ) -> Shader {
         let pipeline = self
             .gpu
             .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some("hairline-rt"),
-                layout: None,
-                module: &module,
+                layout,
+                module,
                 entry_point: Some("main"),
                 compilation_options: Default::default(),
                 cache: None,
@@ -219,5 +268,19 @@ impl Device {
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size);
         usize::try_from(most).unwrap_or(usize::MAX)
+    }
+}
+
+/// A storage buffer at a binding of a compute shader.
+fn storage_at(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
     }
 }

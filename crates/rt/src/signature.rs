@@ -1,8 +1,9 @@
 //! `hairline-rt signature`: which evaluation of each expression a device's compiler chooses, found by its bits.
 
 mod expressions;
+mod precise;
 
-use crate::device::Device;
+use crate::device::{Device, Shader};
 use crate::failure::Failure;
 use crate::output::{print, write_json};
 use clap::ValueHint;
@@ -14,6 +15,7 @@ use std::fmt;
 /// How the device computes in WGSL: which products it fuses, what it reorders, and what becomes of subnormal numbers
 ///
 /// Each expression is a shader of its own. Its results are compared, bit for bit, with evaluations that a compiler may choose.
+/// Where there is glslangValidator each is asked once more in GLSL, with a result that is `precise`.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The same as JSON, to send to somebody
@@ -29,8 +31,19 @@ const COUNT: u64 = 50_000;
 struct Signature {
     device: String,
     expressions: Vec<Evaluated>,
+    /// In GLSL, with a precise result.
+    precise: Precise,
     /// Expressions of subnormal numbers.
     subnormal: Vec<Flushed>,
+}
+
+/// The same expressions in GLSL whose result is `precise`.
+#[derive(Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Precise {
+    Asked(Vec<Evaluated>),
+    /// The reason, in one line.
+    NotAsked(String),
 }
 
 /// An expression, and the evaluations beside it.
@@ -66,16 +79,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut signature = Signature {
         device: device.name(),
         expressions: Vec::new(),
+        precise: asked_precisely(&device, &generic)?,
         subnormal: Vec::new(),
     };
     for expression in EXPRESSIONS {
-        let results = evaluate(&device, expression.wgsl, &generic)?;
+        let shader = wgsl_shader(&device, expression.wgsl);
+        let results = evaluate(&device, &shader, &generic)?;
         signature
             .expressions
             .push(Evaluated::new(expression, &generic, &results));
     }
     for &expression in SUBNORMAL {
-        let results = evaluate(&device, expression, &small)?;
+        let results = evaluate(&device, &wgsl_shader(&device, expression), &small)?;
         signature.subnormal.push(Flushed {
             expression,
             inputs: results.len(),
@@ -87,6 +102,24 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Some(path) => write_json(path, &signature),
         None => Ok(()),
     }
+}
+
+/// The expressions with a `precise` result, if the device and this machine can be asked.
+fn asked_precisely(device: &Device, inputs: &[Numbers]) -> Result<Precise, Failure> {
+    if !device.takes_spirv() {
+        let why = "the device takes no SPIR-V as it is".to_owned();
+        return Ok(Precise::NotAsked(why));
+    }
+    let mut asked = Vec::new();
+    for expression in EXPRESSIONS {
+        let words = match precise::shader(expression.wgsl) {
+            Ok(words) => words,
+            Err(why) => return Ok(Precise::NotAsked(why)),
+        };
+        let results = evaluate(device, &device.spirv_shader(&words, BUFFERS), inputs)?;
+        asked.push(Evaluated::new(expression, inputs, &results));
+    }
+    Ok(Precise::Asked(asked))
 }
 
 /// Eight numbers of five sizes and both signs.
@@ -106,9 +139,16 @@ fn small(index: u64) -> Numbers {
     [f32::from_bits(bits), b, c, 1.0, 0.0, 0.0, 0.0, 0.0]
 }
 
-/// The results of an expression of `a` to `h` on a device.
-fn evaluate(device: &Device, wgsl: &str, inputs: &[Numbers]) -> Result<Vec<f32>, Failure> {
-    let shader = device.shader(&include_str!("signature/one.wgsl").replace("EXPRESSION", wgsl));
+/// A shader of an expression of `a` to `h`.
+fn wgsl_shader(device: &Device, wgsl: &str) -> Shader {
+    device.shader(&include_str!("signature/one.wgsl").replace("EXPRESSION", wgsl))
+}
+
+/// The buffers of each shader: how many inputs, the inputs, the results.
+const BUFFERS: u32 = 3;
+
+/// The results of a shader on a device.
+fn evaluate(device: &Device, shader: &Shader, inputs: &[Numbers]) -> Result<Vec<f32>, Failure> {
     let count = device.storage(&[inputs.len() as u32]);
     let numbers = device.storage(inputs);
     let results = device.zeros::<f32>(inputs.len());
@@ -118,7 +158,7 @@ fn evaluate(device: &Device, wgsl: &str, inputs: &[Numbers]) -> Result<Vec<f32>,
         results.as_entire_binding(),
     ];
     let mut encoder = device.gpu.create_command_encoder(&Default::default());
-    device.dispatch(&mut encoder, &shader, &bound, inputs.len() as u32);
+    device.dispatch(&mut encoder, shader, &bound, inputs.len() as u32);
     let [results] = device.finish(encoder, [&results])?;
     Ok(bytemuck::pod_collect_to_vec(&results))
 }
@@ -148,6 +188,20 @@ impl Evaluated {
         let best = self.evaluations.iter().max_by_key(|it| it.equal);
         best.expect("every expression has evaluations")
     }
+
+    /// The evaluation in words.
+    fn told(&self) -> String {
+        let best = self.best();
+        if best.equal == self.inputs {
+            return best.evaluation.to_owned();
+        }
+        let share = 100.0 * best.equal as f64 / self.inputs as f64;
+        let ulps = match best.most_ulps {
+            Some(ulps) => format!("the others within {ulps} ulps"),
+            None => "others of another sign".to_owned(),
+        };
+        format!("{}: {share:.2} %, {ulps}", best.evaluation)
+    }
 }
 
 /// How many floats lie from one to another of the same sign.
@@ -161,21 +215,10 @@ impl fmt::Display for Signature {
         writeln!(f, "{}", self.device)?;
         writeln!(f)?;
         for evaluated in &self.expressions {
-            let best = evaluated.best();
-            let told = match best.equal == evaluated.inputs {
-                true => best.evaluation.to_owned(),
-                false => {
-                    let share = 100.0 * best.equal as f64 / evaluated.inputs as f64;
-                    let ulps = best
-                        .most_ulps
-                        .map_or("others of another sign".to_owned(), |ulps| {
-                            format!("the others within {ulps} ulps")
-                        });
-                    format!("{}: {share:.2} %, {ulps}", best.evaluation)
-                }
-            };
-            writeln!(f, "{:34} {told}", evaluated.expression)?;
+            writeln!(f, "{:34} {}", evaluated.expression, evaluated.told())?;
         }
+        writeln!(f)?;
+        self.write_precise(f)?;
         writeln!(f)?;
         writeln!(f, "Results that are subnormal numbers")?;
         for flushed in &self.subnormal {
@@ -187,5 +230,26 @@ impl fmt::Display for Signature {
             writeln!(f, "{:34} {told}", flushed.expression)?;
         }
         Ok(())
+    }
+}
+
+impl Signature {
+    /// What `precise` changes.
+    fn write_precise(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let asked = match &self.precise {
+            Precise::Asked(asked) => asked,
+            Precise::NotAsked(why) => return writeln!(f, "GLSL's precise was not asked: {why}"),
+        };
+        writeln!(f, "In GLSL with a precise result")?;
+        let mut alike = 0;
+        for (precise, free) in asked.iter().zip(&self.expressions) {
+            let told = precise.told();
+            if told == free.told() {
+                alike += 1;
+            } else {
+                writeln!(f, "{:34} {told}", precise.expression)?;
+            }
+        }
+        writeln!(f, "{:34} as above", format!("{alike} expressions"))
     }
 }
