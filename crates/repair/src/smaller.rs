@@ -117,7 +117,7 @@ impl<F: Searched + Scalar> TriedChanges<F> {
     }
 }
 
-/// What is said of a kernel that says hit, miss or ask.
+/// A kernel that says hit, miss or ask, as a page tells of it.
 pub struct Guard {
     /// One sentence: what it does on the same rays, or why there is none.
     pub about: String,

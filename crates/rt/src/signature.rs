@@ -234,7 +234,7 @@ impl fmt::Display for Signature {
 }
 
 impl Signature {
-    /// What `precise` changes.
+    /// The expressions that `precise` changes.
     fn write_precise(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let asked = match &self.precise {
             Precise::Asked(asked) => asked,
