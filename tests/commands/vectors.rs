@@ -223,6 +223,19 @@ fn the_formats_hold_the_same_tests() {
 }
 
 #[test]
+fn no_test_of_the_full_set_stands_twice_in_a_file() {
+    let folder = scratch("vectors-once");
+    let (csv, _) = ends(&folder, &["vectors", "--format", "csv", "-n", "3000"], 0);
+    let rows = csv.lines().skip(1);
+    let ids: Vec<&str> = rows
+        .filter_map(|row| row.split_once(",0,").map(|(id, _)| id))
+        .filter(|id| !id.contains(','))
+        .collect();
+    let distinct: std::collections::HashSet<&&str> = ids.iter().collect();
+    assert!(2_900 < ids.len() && distinct.len() == ids.len());
+}
+
+#[test]
 fn a_format_is_needed_to_write_one_file() {
     let folder = scratch("vectors-usage");
     for arguments in [

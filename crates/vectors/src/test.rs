@@ -165,6 +165,11 @@ impl VectorTest {
         ))[..DIGITS]
             .to_owned()
     }
+
+    /// The digest as a number.
+    pub fn number(&self) -> u64 {
+        u64::from_str_radix(&self.digest(), 16).expect("hexadecimal digits, at most 16")
+    }
 }
 
 impl TestTriangle {
