@@ -1214,6 +1214,38 @@ fn the_guides_table_is_what_is_proved_and_known() {
     );
 }
 
+/// The table of the theorem: what an edge's number is a multiple of, and which other gates may be wrong.
+#[test]
+fn the_guides_theorem_supposes_what_the_prover_does() {
+    let guide = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/proof.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    for kernel in everything()["kernels"].as_array().unwrap() {
+        let verdicts = &kernel["verdicts"];
+        let Some(scale) = verdicts["scales"].get(0) else {
+            assert_eq!(kernel["kernel"], "havel-herout");
+            continue;
+        };
+        let number = scale["number"].as_str().unwrap().replace('|', "\\|");
+        let least = scale["at_least"].as_f64().unwrap();
+        let least = [("1/12", 1.0 / 12.0), ("1/2", 0.5), ("1", 1.0)]
+            .into_iter()
+            .find(|(_, value)| (value - least).abs() < 1e-6)
+            .map(|(text, _)| text);
+        let others = verdicts["others"].as_array().unwrap().iter();
+        let others: Vec<&str> = others
+            .filter(|other| !other["may"].as_str().unwrap().starts_with("never"))
+            .map(|other| other["gate"].as_str().unwrap())
+            .collect();
+        let others = match others.is_empty() {
+            true => "none".to_owned(),
+            false => others.join(", "),
+        };
+        let name = kernel["kernel"].as_str().unwrap();
+        let row = format!("| {name} | {number} | {} | {others} |\n", least.unwrap());
+        assert!(guide.contains(&row), "{row}");
+    }
+}
+
 #[test]
 fn the_worst_known_in_a_scene_is_as_bad_as_a_sample_finds() {
     let flags = [
