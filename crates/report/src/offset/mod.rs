@@ -4,6 +4,8 @@ mod choice;
 mod compared;
 mod page;
 mod record;
+mod table;
+mod terms;
 
 pub use choice::made_for;
 pub use record::*;

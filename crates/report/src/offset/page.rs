@@ -2,16 +2,17 @@
 //! everything else folded.
 
 use super::choice::derived_name;
-use super::record::{BestPart, DerivedPart, OffsetResult, PointsPart, SchemePart};
+use super::record::{BestPart, DerivedPart, OffsetResult, PointsPart};
+use super::table::{arguing, of_elsewhere, table};
+use super::terms::{how_to_read, words};
 use crate::arith::ScalarName;
-use crate::case::{Scene, SceneKind, ShortNumber};
-use crate::elsewhere::{self, ComparedRates};
+use crate::case::{Scene, ShortNumber};
 use crate::kernel::{self, Role};
-use crate::page::{Block, Cell, Command, Head, Page, Paged, Row, Table, Use};
+use crate::page::{Block, Command, Page, Paged, Use};
 use crate::scene::named_scene;
 use crate::segments::short_length as size;
 use hairline_advice::offset::describe;
-use hairline_record::{Rate, group_digits, interval_of, percent};
+use hairline_record::{group_digits, percent};
 
 impl Paged for OffsetResult {
     fn page(&self) -> Page {
@@ -203,40 +204,6 @@ fn has_endless_normals(record: &OffsetResult, part: &PointsPart) -> bool {
     scene.is_some_and(|(scene, _)| largest < scene.edge[1].powi(4))
 }
 
-/// The rows that argue: what is recommended, the user's own, no offset at all, and the best that was published with a
-/// name; of few all.
-fn arguing(part: &PointsPart) -> Vec<&SchemePart> {
-    if part.schemes.len() <= 4 {
-        return part.schemes.iter().collect();
-    }
-    let is_best = |scheme: &&SchemePart| {
-        part.best
-            .as_ref()
-            .is_some_and(|BestPart { scheme: best, .. }| *best == scheme.name)
-    };
-    let is_published = |scheme: &&SchemePart| scheme.name != "none" && !scheme.name.contains('=');
-    let failed = |scheme: &SchemePart| scheme.wrong.count.max(scheme.self_hits.count);
-    let height = |scheme: &SchemePart| scheme.height_in_edges.median.unwrap_or(f64::INFINITY);
-    let published = part.schemes.iter().filter(is_published).min_by(|a, b| {
-        failed(a)
-            .cmp(&failed(b))
-            .then(height(a).total_cmp(&height(b)))
-    });
-    let none = part.schemes.iter().find(|scheme| scheme.name == "none");
-    // A scheme that is not described is the user's own.
-    let own = part
-        .schemes
-        .iter()
-        .filter(|scheme| describe(&scheme.name).is_empty());
-    let mut rows: Vec<&SchemePart> = part.schemes.iter().filter(is_best).collect();
-    for scheme in own.chain(none).chain(published) {
-        if !rows.iter().any(|row| row.name == scheme.name) {
-            rows.push(scheme);
-        }
-    }
-    rows
-}
-
 /// The hypothesis of a derived bound.
 fn weights(derived: &DerivedPart) -> String {
     let DerivedPart {
@@ -255,118 +222,6 @@ fn weights(derived: &DerivedPart) -> String {
 fn shows_edges(part: &PointsPart) -> bool {
     let entry = kernel::find(&part.kernel);
     entry.is_some_and(|entry| entry.info.gates.iter().any(|gate| gate.role == Role::Edge))
-}
-
-fn share(rate: &Rate) -> String {
-    rate.rate.map_or("-".to_owned(), percent)
-}
-
-fn share_cell(rate: &Rate) -> Cell {
-    Cell::rate(rate, share(rate))
-}
-
-fn height(height: Option<f64>) -> Cell {
-    height.map_or(Cell::words("behind"), size_cell)
-}
-
-fn size_cell(x: f64) -> Cell {
-    Cell::number(x, size(x))
-}
-
-/// Some offsets; with everything that is counted, or in short.
-fn table(record: &OffsetResult, schemes: Vec<&SchemePart>, is_whole: bool) -> Table {
-    type Shown = Box<dyn Fn(&SchemePart) -> Cell>;
-    let mut columns: Vec<(Head, Shown)> = vec![
-        (
-            Head::of("wrong side"),
-            Box::new(|scheme| share_cell(&scheme.wrong)),
-        ),
-        (
-            Head::of("self-hits"),
-            Box::new(|scheme| share_cell(&scheme.self_hits)),
-        ),
-        (
-            Head::of("height: median"),
-            Box::new(|scheme| height(scheme.height_in_edges.median)),
-        ),
-    ];
-    if is_whole {
-        let interval = |scheme: &SchemePart| {
-            let text = interval_of(&scheme.wrong);
-            Cell::rate(&scheme.wrong, text.trim_matches([' ', '(', ')']))
-        };
-        columns[0] = (Head::of("wrong side [95 %]"), Box::new(interval));
-        let mut more = |head: &str, shown: Shown| columns.push((Head::of(head).optional(), shown));
-        more(
-            "99 %",
-            Box::new(|scheme| height(scheme.height_in_edges.p99)),
-        );
-        more(
-            "top seen",
-            Box::new(|scheme| size_cell(scheme.height_in_edges.highest)),
-        );
-        more(
-            "in ulps",
-            Box::new(|scheme| height(scheme.height_in_ulps.median)),
-        );
-        more(
-            "times least",
-            Box::new(|scheme| scheme.over_least.map_or(Cell::none(), size_cell)),
-        );
-    }
-    if !is_whole && 1 < record.planes.len() {
-        columns.insert(1, (Head::of("on its worst kind"), Box::new(on_worst_kind)));
-    }
-    columns.push((
-        Head::of(format!("past a wall at {}", record.wall)),
-        Box::new(|scheme| share_cell(&scheme.beyond_wall)),
-    ));
-    columns.push((
-        Head::of(format!("past a fold of {}\u{b0}", record.fold)),
-        Box::new(|scheme| share_cell(&scheme.past_neighbour)),
-    ));
-    let row = |scheme: &&SchemePart| {
-        Row::new(&scheme.name, columns.iter().map(|(_, shown)| shown(scheme)))
-    };
-    let rows = schemes.iter().map(row).collect();
-    let heads = [Head::of("offset")]
-        .into_iter()
-        .chain(columns.into_iter().map(|(head, _)| head));
-    Table::new(heads.collect(), rows)
-}
-
-/// The largest share of wrong sides on any kind of planes, and that kind; nothing if it is the first.
-fn on_worst_kind(scheme: &SchemePart) -> Cell {
-    let of_rate = |rate: &Rate| rate.rate.unwrap_or(0.0);
-    let worst = scheme
-        .elsewhere
-        .iter()
-        .max_by(|a, b| of_rate(&a.wrong).total_cmp(&of_rate(&b.wrong)));
-    match worst {
-        Some(worst) if of_rate(&scheme.wrong) < of_rate(&worst.wrong) => {
-            let text = format!("{} {}", share(&worst.wrong), worst.plane);
-            Cell::rate(&worst.wrong, text)
-        }
-        _ => Cell::none(),
-    }
-}
-
-/// The shares of wrong sides on other kinds of planes, of the schemes that are worse there.
-fn of_elsewhere(record: &OffsetResult, part: &PointsPart) -> Vec<Block> {
-    let rows = part.schemes.iter().map(|scheme| ComparedRates {
-        label: scheme.name.clone(),
-        rates: [&scheme.wrong]
-            .into_iter()
-            .chain(scheme.elsewhere.iter().map(|other| &other.wrong))
-            .cloned()
-            .collect(),
-    });
-    elsewhere::blocks(
-        "more wrong sides",
-        &record.planes,
-        &rows.collect::<Vec<_>>(),
-        share,
-    )
 }
 
 /// How far off the hit points themselves are, the derived bound, and what is left out.
@@ -424,68 +279,4 @@ fn least(record: &OffsetResult, part: &PointsPart) -> Vec<String> {
         .collect();
     notes.extend((!words.is_empty()).then(|| format!("left out: {}", words.join(", "))));
     notes
-}
-
-/// The words of the first screen.
-fn words(record: &OffsetResult) -> [(&'static str, String); 4] {
-    [
-        ("n", "the unit normal on the side that the first ray came from; u: half an ulp of 1".to_owned()),
-        (
-            "wrong side",
-            "the new ray starts on the exact plane of its triangle or behind it; self-hits: the kernel says that it hits \
-             that triangle"
-                .to_owned(),
-        ),
-        (
-            "height",
-            format!(
-                "over the plane, in longest edges of the triangle; a wall stands {} of one in front of it",
-                record.wall
-            ),
-        ),
-        (
-            "blocked",
-            "a shadow ray from another point to p hits the surface at p itself, with a direction that goes to p;              shorter: by how much it ends before p"
-                .to_owned(),
-        ),
-    ]
-}
-
-/// The rest.
-fn how_to_read(record: &OffsetResult) -> Vec<Block> {
-    let fold = record.fold;
-    let terms = [
-        ("behind", "half of the starts (or 99 %) are not above the plane".to_owned()),
-        ("in ulps", "the height in ulps of the triangle's largest coordinate: the median".to_owned()),
-        (
-            "a fold",
-            format!("starts behind a neighbour on the edge nearest to p, folded up to {fold} degrees with the triangle"),
-        ),
-        (
-            "times least",
-            "the way along the normal over the shortest that is right, where p itself is wrong (median)".to_owned(),
-        ),
-        ("new rays", "leave to the side that the first ray came from, in every direction alike".to_owned()),
-        (
-            "made",
-            format!(
-                "offsets are made for the scene on seed {}, and counted on seed {}; `hairline list schemes` has the \
-                 sources, --format json a wrong start of each",
-                record.pilot_seed, record.seed
-            ),
-        ),
-    ];
-    vec![Block::terms(terms.into_iter().chain(kinds(record)))]
-}
-
-/// The kinds of planes and rays in words, where there are several.
-fn kinds(record: &OffsetResult) -> Option<(&'static str, String)> {
-    let kinds = record
-        .planes
-        .iter()
-        .filter_map(|name| SceneKind::named(name));
-    let words: Vec<_> = kinds
-        .map(|kind| format!("{kind}: {}", kind.in_words()))
-        .collect();
-    (1 < words.len()).then(|| ("kinds", words.join("; ")))
 }
