@@ -1,11 +1,11 @@
 //! The answer of one kernel in words: the same on the screen and in a page.
 
 use super::notes::{accuracy, is_coarse, is_no_good, no_good, notes, price};
-use super::record::*;
-use super::words::{
-    bound, cost_text, flag, human, interval, label, least_normal, least_t, of_unit, share,
-    share_cell, short_error, unit_of, unit_of_t, where_of,
+use super::numbers::{
+    bound, cost_text, human, interval, least_normal, share, share_cell, short_error,
 };
+use super::record::*;
+use super::words::{flag, label, least_t, of_unit, unit_of, unit_of_t, where_of};
 use crate::arith::{ScalarName, two_digits};
 use crate::kernel::Role;
 use crate::page::{Cell, Row, Use};

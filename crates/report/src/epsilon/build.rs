@@ -1,7 +1,8 @@
 //! A study of a scene as a record.
 
+use super::numbers::shortest;
 use super::record::*;
-use super::words::{set_by, shortest};
+use super::words::set_by;
 use crate::arith::Float;
 use crate::audit::{Histogram, Source, Trials};
 use crate::case::{DirectionLength, Scene};

@@ -5,10 +5,11 @@ use super::answer::{
     rows, used,
 };
 use super::commands::commands;
+use super::numbers::share;
 use super::plot::{footer, panels};
 use super::record::{SceneKernelPart, SceneResult};
 use super::standing::{coarse, of_given, standing, telling};
-use super::words::{label, share};
+use super::words::label;
 use crate::case::{Scene, SceneKind};
 use crate::elsewhere::{self, ComparedRates};
 use crate::family::Stratum;

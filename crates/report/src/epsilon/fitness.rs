@@ -1,7 +1,8 @@
 //! If a scalar's numbers are fine enough for a scene.
 
+use super::numbers::human;
 use super::record::{SceneKernelPart, SceneResult};
-use super::words::{human, spaced};
+use super::words::spaced;
 use crate::arith::ScalarName;
 
 /// The smallest triangle is so many of a scalar's steps long, or longer, where its numbers are fine enough: then

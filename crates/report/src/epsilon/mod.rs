@@ -6,7 +6,10 @@ mod commands;
 mod compared;
 mod evidence;
 pub(super) mod fitness;
+mod legend;
+mod meaning;
 mod notes;
+mod numbers;
 mod page;
 mod plot;
 mod ranking;
@@ -16,9 +19,9 @@ mod standing;
 mod words;
 
 pub use build::{kernel_part, scene_record};
+pub use numbers::shortest;
 pub use ranking::{has_a_table, rows_on_screen};
 pub use record::*;
-pub use words::shortest;
 
 use crate::format::Format;
 use snippet::SnippetLanguage;

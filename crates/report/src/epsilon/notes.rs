@@ -1,7 +1,9 @@
 //! The notes on recommended numbers: what they mean in the scene, and what no number can do.
 
+use super::meaning::meaning;
+use super::numbers::{cost_text, human, least_normal, share};
 use super::record::*;
-use super::words::{cost_text, human, least_normal, meaning, share, spaced};
+use super::words::spaced;
 use crate::arith::ScalarName;
 use crate::case::ShortNumber;
 use hairline_advice::epsilon::{Costs, SCALE_FREE, WrongKind};

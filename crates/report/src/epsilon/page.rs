@@ -2,10 +2,10 @@
 
 use super::answer::{scene, title};
 use super::evidence::of_kernel;
+use super::legend::how_to_read;
 use super::ranking;
 use super::record::{SceneRecord, SceneResult};
 use super::standing::standing;
-use super::words::how_to_read;
 use crate::page::{Block, Page, Paged, Tone};
 
 impl Paged for SceneRecord {

@@ -2,8 +2,9 @@
 //! lines with names above, limits on the axis. One panel a number, the same in a file and in a page.
 
 use super::answer::{LimitRow, RECOMMENDED, column, limit_rows, scene, title, used};
+use super::numbers::human;
 use super::record::*;
-use super::words::{human, label, unit_of};
+use super::words::{label, unit_of};
 use crate::arith::ScalarName;
 use crate::audit::Trials;
 use crate::chart::{Chart, ChartMark, LINE, WIDTH, file, text_at, wrapped};

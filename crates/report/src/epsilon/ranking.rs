@@ -4,11 +4,13 @@ use super::answer::{USE, is_scale_free_better, title, used_numbers};
 use super::commands::{of_kernel, scene_words};
 use super::evidence;
 use super::fitness::{fitness, is_fine};
+use super::legend::how_to_read;
 use super::notes::few_rays;
+use super::numbers::{cost_text, share_cell};
 use super::record::{
     RayCount, Rays, SceneKernelPart, SceneRecord, SceneResult, Stratum, TriedPart, WrongKind,
 };
-use super::words::{cost_text, how_to_read, of_unit, share_cell, unit_of_cost};
+use super::words::{of_unit, unit_of_cost};
 use crate::arith::ScalarName;
 use crate::audit::Trials;
 use crate::lists::alike;

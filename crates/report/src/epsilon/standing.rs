@@ -3,8 +3,9 @@
 use super::answer::holes_text;
 use super::fitness::{fitness, is_fine};
 use super::notes::{is_no_good, no_good};
+use super::numbers::{cost_text, human, share};
 use super::record::*;
-use super::words::{cost_text, human, of_kind, of_stratum, share};
+use super::words::{of_kind, of_stratum};
 use crate::page::Tone;
 use hairline_record::Rate;
 
