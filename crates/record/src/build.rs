@@ -1,41 +1,31 @@
 //! From the sums of a run to a record.
 
-use crate::arith::ScalarName;
+mod planned;
+mod provenance;
+
+pub use planned::plan_part;
+pub use provenance::{Context, TOOL, provenance_of};
+
 use crate::audit::{
-    Audit, CLASSES, CasePlace, CorpusSet, EpsilonText, Examples, GroupCount, Plan, PolygonCount,
-    Row, Severity, Source, SourceCell, SourceSummary, Stock, Tally, Trials, exact_severity,
-    severity_of_instance, words,
+    Audit, CLASSES, CasePlace, Examples, GroupCount, Plan, PolygonCount, Row, Severity, Source,
+    SourceCell, SourceSummary, Stock, Tally, Trials, exact_severity, severity_of_instance,
 };
-use crate::case::{Case, Matrix};
+use crate::case::Case;
 use crate::class::FindingClass;
-use crate::contract::{Boundary, Extent};
 use crate::distribution;
 use crate::engine;
 use crate::family::Grouping;
-use crate::files::hex;
 use crate::finding::*;
 use crate::judge::{Class, Finding};
-use crate::kernel::{Gate, Role, Scalar};
+use crate::kernel::Scalar;
 use crate::kind::Promised;
-use crate::plan::*;
 use crate::rate::Rate;
 use crate::record::Record;
 use crate::result::*;
 #[cfg(feature = "studies")]
 use crate::surface;
-use hmac_sha256::Hash;
+use provenance::provenance;
 use std::collections::BTreeMap;
-
-/// This program and its version, as records have it.
-pub const TOOL: &str = concat!("hairline ", env!("CARGO_PKG_VERSION"));
-
-/// The data of a run besides its sums.
-pub struct Context {
-    /// Wall-clock seconds of the run.
-    pub seconds: f64,
-    /// Threads used.
-    pub threads: usize,
-}
 
 /// Makes the record of a run.
 pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
@@ -59,99 +49,6 @@ pub fn build(plan: &Plan, audit: &Audit, context: &Context) -> Record {
         totals: distribution::totals(plan, audit),
     };
     Record::new(result, provenance(plan, audit, context))
-}
-
-/// A row as a plan names it.
-pub fn row_part(row: &Row) -> RowPart {
-    RowPart {
-        contract_words: row.spec().contract,
-        kernel: row.entry.info.name.to_owned(),
-        selector: row.entry.selector(),
-        set: row.set.clone(),
-        epsilons: row
-            .tuned()
-            .map(|(gate, text)| (gate.name.to_owned(), text.to_string()))
-            .collect(),
-        contract: row.contract.describe(),
-    }
-}
-
-pub fn plan_part(plan: &Plan) -> PlanPart {
-    let part = PlanPart {
-        hash: String::new(),
-        rows: plan.rows.iter().map(row_part).collect(),
-        sources: plan.sources.iter().map(planned_source).collect(),
-        scalars: ScalarName::among(plan.scalars).collect(),
-    };
-    #[cfg(feature = "studies")]
-    let part = part.hashed();
-    part
-}
-
-#[cfg(feature = "studies")]
-impl PlanPart {
-    /// With the hash of the other fields.
-    pub fn hashed(mut self) -> PlanPart {
-        self.hash.clear();
-        let text = serde_json::to_string(&self).unwrap_or_default();
-        self.hash = hex(&Hash::hash(text.as_bytes())[..8]);
-        self
-    }
-
-    /// The hash of what chooses the cases, which are the same for any kernels, epsilons and contracts.
-    pub fn hash_of_cases(&self) -> String {
-        let text = serde_json::to_string(&self.sources).unwrap_or_default();
-        hex(&Hash::hash(text.as_bytes())[..8])
-    }
-}
-
-/// A source as the plan names it.
-pub fn planned_source(source: &Source) -> PlannedSource {
-    PlannedSource {
-        family: source.name(),
-        set: match &source.stock {
-            Stock::Corpus(set) => {
-                let instance = source.parameters.instance.as_ref();
-                let place = instance.map(|it| format!("/instance={}", words(it).replace(' ', ":")));
-                let digest = corpus_digest(set, instance);
-                format!("{}@{digest}{}", set.file, place.unwrap_or_default())
-            }
-            _ => set_of_id(&source.id::<f64>(0, None)),
-        },
-        count: source.count::<f32>().max(source.count::<f64>()),
-    }
-}
-
-/// The digest of the stored cases and their names: another file of the same name is another plan.
-fn corpus_digest(set: &CorpusSet, instance: Option<&Matrix<f64>>) -> String {
-    let mut digest = Hash::new();
-    let mut add = |name: &str, bits: &[u64]| {
-        digest.update(name.as_bytes());
-        bits.iter()
-            .for_each(|bits| digest.update(bits.to_le_bytes()));
-    };
-    set.f32
-        .iter()
-        .for_each(|(name, case)| add(name, &case.bits()));
-    set.f64
-        .iter()
-        .for_each(|(name, case)| add(name, &case.bits()));
-    if let Some(matrix) = instance {
-        add(
-            "instance",
-            &[0, 1, 2].map(|row| matrix[row].map(f64::to_bits)).concat(),
-        );
-    }
-    hex(&digest.finalize()[..8])
-}
-
-/// `family@version/parameters/seed` of an id: without the scalar and the index.
-fn set_of_id(id: &str) -> String {
-    let words: Vec<&str> = id.split('/').collect();
-    match words[..] {
-        [family, _, parameters, seed, _] => format!("{family}/{parameters}/{seed}"),
-        _ => id.to_owned(),
-    }
 }
 
 fn source_part(plan: &Plan, summary: &SourceSummary) -> SourcePart {
@@ -394,82 +291,6 @@ fn polygon_part<F: Scalar>(source: &Source, polygons: &PolygonCount) -> PolygonP
         first_false_hits: hits.first,
         others: others.filter(|part| 0 < part.rate.count).collect(),
     }
-}
-
-/// Where a record was made, and how long it took.
-pub fn provenance_of(context: &Context) -> Provenance {
-    Provenance {
-        tool: TOOL.to_owned(),
-        target: format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
-        threads: context.threads,
-        seconds: context.seconds,
-        ..Provenance::default()
-    }
-}
-
-/// Notes on the rows' kernels besides their verdicts.
-pub fn kernel_notes(rows: &[Row]) -> BTreeMap<String, Vec<String>> {
-    let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for row in rows {
-        let notes = row.entry.notes().into_iter().chain(ends_note(row));
-        let known = all.entry(row.entry.info.name.to_owned()).or_default();
-        notes.for_each(|note| {
-            if !known.contains(&note) {
-                known.push(note);
-            }
-        });
-    }
-    all.retain(|_, notes| !notes.is_empty());
-    all
-}
-
-/// A contract that promises hits at the ends of a ray, and an epsilon that excludes them.
-fn ends_note(row: &Row) -> Option<String> {
-    // What a built-in kernel promises is what its source says.
-    let promises = !row.entry.is_built_in()
-        && row.contract.extent != Extent::Line
-        // Such a contract is about the near hits, as the epsilon is.
-        && !row.contract.no_self_hit
-        && row.contract.ends == Boundary::Closed;
-    let excludes = |(gate, text): &(&Gate, &EpsilonText)| {
-        gate.role == Role::T && text.value::<f64>().is_some_and(|value| 0.0 < value)
-    };
-    let (gate, text) = row.tuned().filter(|_| promises).find(excludes)?;
-    let name = gate.name;
-    Some(format!(
-        "its contract promises hits at the ends of the ray, and its epsilon {name} = {text} excludes those near the \
-         start; if that is meant, promise less: --contract own,ends=free"
-    ))
-}
-
-fn provenance(plan: &Plan, audit: &Audit, context: &Context) -> Provenance {
-    let mut provenance = provenance_of(context);
-    provenance.kernel_notes = kernel_notes(&plan.rows);
-    let mut cases: BTreeMap<ScalarName, (u64, u64)> = BTreeMap::new();
-    for summary in &audit.sources {
-        let sum = cases.entry(summary.scalar).or_default();
-        sum.0 += summary.oracle_nanoseconds;
-        sum.1 += summary.cases;
-        let layers = provenance.oracle_layers.entry(summary.scalar).or_default();
-        for (name, count) in summary.layers.named() {
-            *layers.entry(name.to_owned()).or_default() += count;
-        }
-    }
-    let per = |time: u64, count: u64| time as f64 / count.max(1) as f64;
-    for (scalar, (time, count)) in &cases {
-        provenance
-            .oracle_nanoseconds
-            .insert(*scalar, per(*time, *count));
-    }
-    let mut times: BTreeMap<(ScalarName, usize), u64> = BTreeMap::new();
-    for cell in &audit.cells {
-        *times.entry((cell.scalar, cell.row)).or_default() += cell.nanoseconds;
-    }
-    for ((scalar, row), time) in times {
-        let by_row = provenance.kernel_nanoseconds.entry(scalar).or_default();
-        by_row.insert(plan.rows[row].label(), per(time, cases[&scalar].1));
-    }
-    provenance
 }
 
 /// The command that shows a case with a row again.
