@@ -44,9 +44,9 @@ const ROOMS: [Room; 18] = [
     room("crates/plugin/src", Some("plugin"), 20_400),
     // With a plan's part of a record, and its provenance, in files of their own.
     room("crates/record/src", Some("record"), 23_050),
-    // With captions of drawings, and rows of an explained case, in files of their own: each has its imports. With what the exact test
-    // says of itself among kernels.
-    room("crates/report/src", Some("report"), 101_170),
+    // With captions of drawings, rows of an explained case, the table and the words of `offset`, numbers and their meaning on a page of
+    // epsilons, and a mesh's topology in files of their own: each has its imports. With what the exact test says of itself among kernels.
+    room("crates/report/src", Some("report"), 101_470),
     // Of issue 62: answers of programs about whole meshes, read and judged, with pictures; most of it came out of src.
     // Then the scene that a program makes first, and transforms of instances as a reason of lost hits.
     room("crates/rays/src", Some("rays"), 36_300),

@@ -1,6 +1,8 @@
 //! The record of a mesh audit as a page of text: a sentence, a table a scalar, the first places; everything else folded.
 
-use super::rows::{AtPart, MeshRow, rows};
+use super::examples::{MeshExample, examples, place};
+use super::rows::{MeshRow, rows};
+use super::topology::{not_asked, topology_terms};
 use crate::epsilon::fitness::Grain;
 use crate::lists::alike;
 use crate::page::{Block, Cell, Command, Head, Page, Row, Table, Tone};
@@ -124,28 +126,6 @@ fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone,
     (tone, title)
 }
 
-/// The edges of a mesh through which no ray is aimed, as the end of a sentence; empty if there are none.
-fn not_asked(mesh: &MeshPart) -> String {
-    // In the scalar in which they are most.
-    let of_scalar = |part: &MeshScalar| {
-        let count = |key: &str| part.topology.edges.get(key).map_or(0, |noted| noted.count);
-        (
-            EDGE_WORDS[1..].iter().map(|(key, _)| count(key)).sum(),
-            count("open"),
-        )
-    };
-    match mesh.scalars.iter().map(of_scalar).max() {
-        None | Some((0, _)) => String::new(),
-        Some((others, open)) => {
-            let edges = number_of(others, "edge is", "edges are");
-            format!(
-                "; {edges} not asked about, {} of them open",
-                group_digits(open)
-            )
-        }
-    }
-}
-
 /// The mesh in one scalar, and the rows, those that leak least first; rows that answer alike stand together.
 fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) -> Vec<Block> {
     let of_scalar = record
@@ -229,23 +209,6 @@ fn blocks_of(record: &Record, part: &MeshScalar, mut rows: Vec<&MeshRow<'_>>) ->
     blocks
 }
 
-/// The topology, and how many rays were aimed.
-fn topology_terms(part: &MeshScalar, rays: &[u64]) -> Vec<(&'static str, String)> {
-    let mut terms = topology_lines(&part.topology);
-    let rays = |i: usize| group_digits(rays.get(i).copied().unwrap_or(0));
-    terms.push((
-        "aimed",
-        format!(
-            "{} rays at edges, {} at vertices, in {} ({})",
-            rays(0),
-            rays(1),
-            part.scalar,
-            number_of(part.topology.points, "point", "points")
-        ),
-    ));
-    terms
-}
-
 /// The commands that show the first places: of rows that break a promise, then of those that leak least.
 fn first_places(rows: &[MeshRow<'_>]) -> Vec<Command> {
     let mut rows: Vec<&MeshRow<'_>> = rows.iter().collect();
@@ -315,128 +278,7 @@ fn everything(record: &Record, mesh: &MeshPart, rows: &[&MeshRow<'_>]) -> Vec<Bl
     blocks
 }
 
-/// The topology of the mesh, and where it first is not what rays can be asked about: lines with their heads.
-fn topology_lines(topology: &TopologyPart) -> Vec<(&'static str, String)> {
-    let kinds = [
-        ("faces", &topology.faces, FACE_WORDS),
-        ("edges", &topology.edges, EDGE_WORDS),
-        ("vertices", &topology.vertices, VERTEX_WORDS),
-    ];
-    let mut lines = Vec::new();
-    for (name, kinds, words) in kinds {
-        let count = |key: &&(&str, &str)| kinds.get(key.0).is_some_and(|noted| noted.count > 0);
-        let mut parts: Vec<String> = Vec::new();
-        for (i, (key, word)) in words.iter().filter(count).enumerate() {
-            let noted = &kinds[*key];
-            let first = match (noted.first_line, noted.first_face) {
-                // The first of the regular ones tells nothing.
-                _ if i == 0 && *key == words[0].0 => String::new(),
-                (Some(line), _) => format!(" (first at line {line})"),
-                (_, Some(face)) => format!(" (first at face {face})"),
-                _ => String::new(),
-            };
-            parts.push(format!("{} {word}{first}", group_digits(noted.count)));
-        }
-        lines.push((
-            name,
-            if parts.is_empty() {
-                "none".to_owned()
-            } else {
-                parts.join(", ")
-            },
-        ));
-    }
-    if topology.duplicated_places > 0 {
-        let places = number_of(topology.duplicated_places, "place", "places");
-        lines.push(("", format!("the duplicated faces lie in {places}")));
-    }
-    if topology.closed_manifold {
-        lines.push(("", "a closed surface, wound consistently".to_owned()));
-    }
-    lines
-}
-
 /// The note on the shares in the table.
 const SHARES: &str = "Cracks: % of the rays aimed at edges, and at vertices, that cross the surface there, on a side that counts; \
 doubles: of both together; wrong at folds: of those that touch it. Rays at the whole mesh rarely come so near an edge. Sorted by the \
 share of cracks; `hairline epsilon --mesh` finds better epsilons, and weighs lost and false hits too.";
-
-const FACE_WORDS: &[(&str, &str)] = &[
-    ("sound", "sound"),
-    ("collapsed", "with two equal vertices"),
-    ("without_area", "without area"),
-    ("duplicated", "duplicated"),
-    ("out_of_range", "out of range"),
-    (
-        "left_out",
-        "left out, polygons that cross themselves or fold over",
-    ),
-];
-const EDGE_WORDS: &[(&str, &str)] = &[
-    ("shared", "between two faces"),
-    ("open", "open"),
-    ("inconsistent", "of two faces wound inconsistently"),
-    ("non_manifold", "non-manifold"),
-    ("unsound", "at faces that are not sound"),
-];
-const VERTEX_WORDS: &[(&str, &str)] = &[
-    ("closed_fan", "inside a closed fan"),
-    ("open_fan", "on the boundary"),
-    ("several_fans", "of several fans"),
-    ("irregular", "at edges or faces not asked about"),
-];
-
-/// A group that shows something.
-struct MeshExample<'a> {
-    what: String,
-    id: &'a str,
-    command: String,
-}
-
-/// So many findings of each kind and class: cracks, and what else the row's contract speaks of; what
-/// may be elsewhere, which is no finding, on demand.
-fn examples<'a>(row: &MeshRow<'a>, limit: usize, elsewhere: bool) -> Vec<MeshExample<'a>> {
-    let mut all = Vec::new();
-    for (name, AtPart { result, across, .. }) in ["edge", "vertex"].into_iter().zip(row.at) {
-        for (class, found) in &across.classes {
-            let mut lists = vec![("crack", &found.first_cracks)];
-            if row.promised() == Promised::ExactlyOne {
-                lists.push(("double", &found.first_doubles));
-                lists.push(("wrong at a fold", &found.first_odd_folds));
-            }
-            if elsewhere {
-                lists.push(("elsewhere", &found.first_elsewhere));
-            }
-            for (what, list) in lists {
-                all.extend(list.iter().take(limit).map(|id| MeshExample {
-                    what: format!("{what}, {name}, {class}"),
-                    id,
-                    command: result.explain_group(row.part, id),
-                }));
-            }
-        }
-    }
-    all
-}
-
-/// The points, and the lines of the faces, or their numbers.
-fn place(example: &PlacePart) -> String {
-    let points: Vec<String> = example
-        .points
-        .iter()
-        .map(|[x, y, z]| format!("({x}, {y}, {z})"))
-        .collect();
-    let (at, places) = match example.lines.as_slice() {
-        [] => ("", &example.faces),
-        _ => ("at lines ", &example.lines),
-    };
-    let mut places: Vec<String> = places.iter().map(u32::to_string).collect();
-    places.dedup();
-    let more = if places.len() > 8 { ", …" } else { "" };
-    places.truncate(8);
-    format!(
-        "{}, faces {at}{}{more}",
-        points.join(" to "),
-        places.join(", ")
-    )
-}
