@@ -1,16 +1,16 @@
-//! Which cases a command line names, and on how many threads they run.
+//! The cases that a command line names: families, rays in a scene, meshes and stored cases.
 
-use super::before::note_missed_angles;
+mod scene;
+mod studied;
+
+pub(super) use scene::{about_scene, mesh_scene, note_left_out};
+
 use super::exit::Failure;
-use super::flags::{RUNNING, again, case_count, chosen_scalars, find_family, refuse_twice};
+use super::flags::{RUNNING, again, case_count, find_family, refuse_twice};
 use super::input::{corpus_files, corpus_sets, read_mesh};
-use crate::arith::ScalarName;
 use crate::audit::{CorpusSet, Source, Stock};
-use crate::case::{Parameters, Scene, parse_offset, parse_power_of_two};
-use crate::epsilon::StudiedRays;
+use crate::case::{Parameters, parse_offset, parse_power_of_two};
 use crate::family::{FAMILIES, Family, MeshFamily, STRATA, Stratum};
-use crate::files::InputError;
-use crate::mesh::{SceneMesh, Surface};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use std::collections::HashSet;
@@ -106,16 +106,6 @@ impl SourceArguments {
         [scalar, self.case_flags(families), count, seed].concat()
     }
 
-    /// Those with which `hairline epsilon` studies such cases: it takes a scene whole.
-    pub fn epsilon_flags(&self) -> Vec<String> {
-        let families = if self.scene.is_some() {
-            &[]
-        } else {
-            &self.family[..]
-        };
-        self.flags_of(families)
-    }
-
     /// Those of them that say which cases, but for how many of them, of which seed and scalar.
     fn case_flags(&self, families: &[String]) -> Vec<String> {
         let switch = |flag: &str, is_given: bool| Vec::from_iter(is_given.then(|| flag.to_owned()));
@@ -134,68 +124,6 @@ impl SourceArguments {
         flags.concat()
     }
 
-    /// The rays to study: those of a scene, which both scalars of the run can hold, or of the scene that a mesh is; or
-    /// the families and stored cases that are named.
-    pub fn studied_rays(&self, quiet: bool) -> Result<StudiedRays, Failure> {
-        let is_stratum = |name: &String| Stratum::named(name).is_some();
-        let strata: Vec<String> = self
-            .family
-            .iter()
-            .filter(|name| is_stratum(name))
-            .cloned()
-            .collect();
-        let studied = StudiedRays {
-            strata,
-            ..StudiedRays::default()
-        };
-        let other = studied.strata.len() < self.family.len() || !self.corpus.is_empty();
-        if other || self.exhaustive || self.changes_cases() {
-            for (flag, is_given) in [
-                ("--scene", self.scene.is_some()),
-                ("--mesh", !self.mesh.is_empty()),
-            ] {
-                if is_given {
-                    let message = format!(
-                        "leave out {flag}, whose rays are studied, or families, --corpus and changes to cases (--scale, \
-                         --offset, --direction)"
-                    );
-                    return Err(Failure::usage(message));
-                }
-            }
-            let flags = self.case_flags(&self.family).join(" ");
-            return Ok(StudiedRays {
-                sources: self.sources(quiet)?,
-                flags,
-                ..studied
-            });
-        }
-        if !self.mesh.is_empty() {
-            let (scene, mesh) = self.mesh_scene(quiet)?;
-            self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
-            return Ok(StudiedRays {
-                scene: Some(scene),
-                mesh: Some(mesh),
-                ..studied
-            });
-        }
-        let (scene, unit) = self.scene()?.unwrap_or_default();
-        if let Some(text) = self.scene.as_deref().filter(|_| !quiet) {
-            note_left_out(&scene, text);
-        }
-        self.note_what_is_missed(&scene, None, quiet)?;
-        let others = if self.names_kind() {
-            Vec::new()
-        } else {
-            scene.of_all_kinds().split_off(1)
-        };
-        Ok(StudiedRays {
-            scene: Some(scene),
-            unit,
-            others,
-            ..studied
-        })
-    }
-
     /// True if cases are changed.
     fn changes_cases(&self) -> bool {
         let sized = self.scale != "1" || self.scale_direction || self.offset.is_some();
@@ -207,42 +135,9 @@ impl SourceArguments {
         self.scene.is_some() || !self.mesh.is_empty()
     }
 
-    /// True if the scene's words name a kind of planes or rays.
-    pub fn names_kind(&self) -> bool {
-        self.scene.as_deref().is_some_and(Scene::names_kind)
-    }
-
-    /// The scene that the mesh is, and the mesh.
-    fn mesh_scene(&self, quiet: bool) -> Result<(Scene, Arc<SceneMesh>), Failure> {
-        self.refuse_other_cases()?;
-        let [path] = &self.mesh[..] else {
-            return Err(Failure::usage("--mesh: a scene is of one mesh"));
-        };
-        mesh_scene(path, self.scene.as_deref(), self.scalars()?, quiet)
-    }
-
     /// The seed, and how many cases of each family.
     pub fn seed_and_count(&self) -> (u64, u64) {
         (self.seed, self.count)
-    }
-
-    /// True for each scalar of the run: `f32`, `f64`. One that cannot hold the scene is left out if the other can.
-    pub fn scalars(&self) -> Result<[bool; 2], Failure> {
-        let chosen = chosen_scalars(&self.scalar)?;
-        Ok(self.held_in(chosen).map_or(chosen, |(held, _)| held))
-    }
-
-    /// The reason for which one of the scalars is left out.
-    pub fn left_out(&self) -> Result<Option<String>, Failure> {
-        Ok(self
-            .held_in(chosen_scalars(&self.scalar)?)
-            .and_then(|(_, why)| why))
-    }
-
-    /// The scalars that can hold the scene that the words are of, and why another cannot; none without a scene.
-    fn held_in(&self, chosen: [bool; 2]) -> Option<([bool; 2], Option<String>)> {
-        let words = self.scene.as_ref().filter(|_| self.mesh.is_empty())?;
-        Scene::parse(words).ok()?.0.held_in(chosen).ok()
     }
 
     /// The sources, meshes and corpora read.
@@ -319,51 +214,6 @@ impl SourceArguments {
         Ok(sources)
     }
 
-    /// Says, before a run of a scene, which scalar cannot hold it, and which angles its almost parallel rays do not have.
-    fn note_what_is_missed(
-        &self,
-        scene: &Scene,
-        mesh: Option<&SceneMesh>,
-        quiet: bool,
-    ) -> Result<(), Failure> {
-        if let Some(why) = self.left_out()?.filter(|_| !quiet) {
-            eprintln!("left out: {why}");
-        }
-        if !quiet && self.runs(Stratum::Grazing) {
-            note_missed_angles(scene, mesh, self.scalars()?, self.seed_and_count().0);
-        }
-        Ok(())
-    }
-
-    /// True if a stratum is named, or none is.
-    fn runs(&self, stratum: Stratum) -> bool {
-        let mut named = self
-            .family
-            .iter()
-            .filter_map(|name| Stratum::named(name))
-            .peekable();
-        named.peek().is_none() || named.any(|other| other == stratum)
-    }
-
-    /// The strata of the scene that the mesh is.
-    fn strata_of_mesh(&self, quiet: bool) -> Result<Vec<Source>, Failure> {
-        self.refuse_other_families()?;
-        let (scene, mesh) = self.mesh_scene(quiet)?;
-        self.note_what_is_missed(&scene, Some(&mesh), quiet)?;
-        let scene = scene.to_try_kernels(self.scene.as_deref().unwrap_or_default());
-        let parameters = Parameters {
-            scene: Some(scene),
-            ..Parameters::default()
-        };
-        let strata = Stratum::ALL
-            .into_iter()
-            .filter(|stratum| self.runs(*stratum));
-        let (seed, count) = self.seed_and_count();
-        let source =
-            |stratum| Source::of_stratum(stratum, Some(&mesh), parameters.clone(), seed, count);
-        Ok(strata.map(source).collect())
-    }
-
     /// The families that are named, or all that belong to the other flags. With a scene its strata run in any case, unless
     /// some of them are named.
     fn families(&self) -> Result<Vec<&'static Family>, Failure> {
@@ -404,59 +254,6 @@ impl SourceArguments {
             instance: None,
         })
     }
-
-    /// The scene, which a scalar of the run can hold, and its unit of length.
-    fn scene(&self) -> Result<Option<(Scene, &'static str)>, Failure> {
-        let Some(text) = &self.scene else {
-            return Ok(None);
-        };
-        self.refuse_other_cases()?;
-        let (scene, unit) = Scene::parse(text).map_err(about_scene)?;
-        scene
-            .held_in(chosen_scalars(&self.scalar)?)
-            .map_err(about_scene)?;
-        Ok(Some((scene, unit)))
-    }
-
-    /// The scene as kernels are tried in it.
-    fn scene_to_try_kernels(&self) -> Result<Option<Scene>, Failure> {
-        let words = self.scene.as_deref().unwrap_or_default();
-        Ok(self.scene()?.map(|(scene, _)| scene.to_try_kernels(words)))
-    }
-
-    fn refuse_other_cases(&self) -> Result<(), Failure> {
-        if !self.corpus.is_empty() {
-            return Err(about_scene("leave out --corpus".to_owned()));
-        }
-        if self.changes_cases() {
-            let sizes = "a scene has sizes of its own: leave out --scale, --offset and --direction";
-            return Err(about_scene(sizes.to_owned()));
-        }
-        Ok(())
-    }
-
-    fn refuse_other_families(&self) -> Result<(), Failure> {
-        match self
-            .family
-            .iter()
-            .find(|name| Stratum::named(name).is_none())
-        {
-            Some(other) => Err(about_scene(format!("'{other}' is no part of a scene"))),
-            None => Ok(()),
-        }
-    }
-}
-
-/// Says which lengths of a scene its words leave out.
-pub(super) fn note_left_out(scene: &Scene, text: &str) {
-    if let Some(left) = scene.left_out(text) {
-        eprintln!("note: --scene does not say {left}: these are those of `unit`, times the extent");
-    }
-}
-
-/// An error about `--scene`.
-pub(super) fn about_scene(message: String) -> Failure {
-    Failure::usage(format!("--scene: {message}"))
 }
 
 /// The most rays at an edge or vertex: their number fits what counts them, for every kernel.
@@ -465,30 +262,4 @@ const MOST_DIRECTIONS: u64 = 65_536;
 /// Reads a number of rays at each edge and vertex.
 pub fn rays_at_each() -> impl TypedValueParser<Value = u64> {
     clap::value_parser!(u64).range(1..=MOST_DIRECTIONS)
-}
-
-/// The scene that a mesh is, with what words say of its rays, and the mesh, in some scalars.
-pub fn mesh_scene(
-    path: &str,
-    words: Option<&str>,
-    scalars: [bool; 2],
-    quiet: bool,
-) -> Result<(Scene, Arc<SceneMesh>), Failure> {
-    let words = words.unwrap_or("mesh");
-    // What is wrong with the words shows before a large mesh is read.
-    Scene::default().of_mesh(words).map_err(about_scene)?;
-    let family = Arc::new(MeshFamily::new(read_mesh(path, quiet)?, path));
-    let mesh = SceneMesh::new(Surface::new(family, scalars));
-    for name in ScalarName::among(scalars) {
-        if in_named_scalar!(name, F => mesh.face_count::<F>()) == 0 {
-            let message = format!("no triangle has an area in {name}");
-            return Err(InputError::of(path, message).into());
-        }
-    }
-    let scene = mesh.scene().of_mesh(words).map_err(about_scene)?;
-    for name in ScalarName::among(scalars) {
-        let held = in_named_scalar!(name, F => scene.check_range_in::<F>());
-        held.map_err(|error| InputError::of(path, error))?;
-    }
-    Ok((scene, Arc::new(mesh)))
 }
