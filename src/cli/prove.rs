@@ -1,5 +1,6 @@
 //! `hairline prove`: bounds that hold for every float of a domain, witnesses, certificates.
 
+mod certify;
 pub mod check;
 pub mod demand;
 mod job;
@@ -11,22 +12,20 @@ mod witnesses;
 use super::exit::{Failure, Status};
 use super::flags::{chosen_scalars, find_kernel, unknown};
 use super::input::read_text;
-use super::output::{OutputArguments, write_json_lines, write_result};
-use super::sources::about_scene;
-use crate::audit::{EpsilonChoice, Row, shell_word};
-use crate::case;
+use super::output::{OutputArguments, write_json_lines};
+use crate::audit::{EpsilonChoice, Row};
 use crate::engine;
-use crate::kernel::{self, Entry, Scalar};
+use crate::kernel::{self, Entry};
 use crate::named_file::SizeLimit;
-use crate::prove::certificate::{self, Claim};
-use crate::prove::{Domain, Effort, Quantity, Scene, Searched, Shape, Summary};
-use crate::record::{Context, ProofPart, Record, number_of, provenance_of};
+use crate::prove::{Domain, Effort};
+use crate::record::{Context, ProofPart, Record, provenance_of};
 use crate::report::proofs::{DomainPart, GatePart, ProofResult, Report};
 use crate::report::{Format, write_json};
+use certify::certify;
 use clap::Args;
 use job::{Epsilons, Job, Parts};
 use leaks::leak;
-use scenes::{degrees, mesh_scene, range, scene_text};
+use scenes::{degrees, range, scene_text};
 use sizes::DemandedSize;
 use std::time::Instant;
 use witnesses::{KNOWN, merge, read_witnesses};
@@ -288,79 +287,6 @@ fn ensure_gate(entry: &Entry, name: &str) -> Result<(), Failure> {
         .ok_or_else(|| unknown("gate", name, gates(), &list))
 }
 
-/// Writes the certificate of one kernel in one scalar.
-fn certify(
-    entries: &[&'static Entry],
-    scalars: [bool; 2],
-    domains: (Domain, &[Domain]),
-    (path, quiet): (&str, bool),
-) -> Result<Status, Failure> {
-    let ([entry], [true, false] | [false, true]) = (entries, scalars) else {
-        return Err(Failure::usage(
-            "--certificate is of one --kernel in one --scalar",
-        ));
-    };
-    let text = match scalars[0] {
-        true => certificate_of::<f32>(entry, domains),
-        false => certificate_of::<f64>(entry, domains),
-    };
-    let text = text.map_err(|why| {
-        let message = format!("{}: no certificate: {why}", entry.info.name);
-        Failure::nothing(message)
-    })?;
-    write_result(path, |out| out.write_all(text.as_bytes()))?;
-    if !quiet {
-        let bounds = text
-            .lines()
-            .filter(|line| line.starts_with("claim "))
-            .count() as u64;
-        let bounds = number_of(bounds, "bound", "bounds");
-        let check = format!("check it: hairline prove --check {}", shell_word(path));
-        eprintln!(
-            "{path}: {bounds} of what {} compares; {check}",
-            entry.info.name
-        );
-    }
-    Ok(Status::Success)
-}
-
-fn certificate_of<F: Searched + Scalar>(
-    entry: &Entry,
-    (domain, parts): (Domain, &[Domain]),
-) -> Result<String, String> {
-    let summary = Summary::<F>::new(entry, domain, parts, &[], Effort::NONE)?;
-    let mut text = certificate::heading(entry.info.name, F::NAME, summary.format);
-    let mut stated = None;
-    for quantity in summary.proof.quantities.iter().filter(|q| q.bound.is_ok()) {
-        let path = &summary.proof.paths[quantity.path];
-        let Quantity {
-            place,
-            orders,
-            also,
-            ..
-        } = quantity;
-        let gate = &entry.info.gates[quantity.gate];
-        let symmetry = certificate::symmetry_at(gate, path, *place);
-        let claim = Claim {
-            gate: gate.name,
-            place: *place,
-            symmetry,
-            orders,
-            also,
-        };
-        if stated != Some(quantity.domain) {
-            text.push_str(&certificate::domain(&quantity.domain));
-            stated = Some(quantity.domain);
-        }
-        text.push_str(&certificate::program(path, &quantity.lemmas, &claim));
-    }
-    if stated.is_none() {
-        Err("no gate has a bound in this domain".to_owned())
-    } else {
-        Ok(text)
-    }
-}
-
 impl ProveArguments {
     fn entries(&self) -> Result<Vec<&'static Entry>, Failure> {
         if self.kernel.is_empty() {
@@ -372,22 +298,6 @@ impl ProveArguments {
             return Ok(if own.is_empty() { all } else { own });
         }
         self.kernel.iter().map(|name| find_kernel(name)).collect()
-    }
-
-    /// The flags of `epsilon` that choose rays in such a scene.
-    fn rays(&self) -> String {
-        match (&self.scene, &self.mesh) {
-            (Some(scene), _) => format!("--scene {}", shell_word(scene)),
-            (None, Some(mesh)) => format!("--mesh {}", shell_word(mesh)),
-            _ => match (self.coordinates, self.edge) {
-                (Some(coordinates), Some([low, high])) => {
-                    let distance = self.distance.unwrap_or(2.0 * coordinates);
-                    let extent = coordinates.max(high);
-                    format!("--scene extent={extent},edge={low}..{high},distance=0..{distance}")
-                }
-                _ => "--scene room".to_owned(),
-            },
-        }
     }
 
     /// The epsilons that something is proved about.
@@ -405,54 +315,5 @@ impl ProveArguments {
         // As an audit would refuse them.
         choice.rows(entries, None)?;
         Ok(Epsilons::Given(choice.given().to_vec()))
-    }
-
-    /// The scene, and the sizes and areas of its triangles.
-    fn scene(&self) -> Result<(Option<Scene>, Vec<Shape>), Failure> {
-        if let Some(path) = &self.mesh {
-            let distance = self.distance.expect("required by --mesh");
-            let (scene, shapes) = mesh_scene(path, distance, self.grazing, self.output.quiet)?;
-            return Ok((Some(scene), shapes));
-        }
-        if let Some(text) = &self.scene {
-            let (scene, _) = case::Scene::parse(text).map_err(about_scene)?;
-            let scene = Scene::of(&scene).map_err(about_scene)?;
-            let scene = Scene {
-                min_angle: self.min_angle,
-                grazing: self.grazing,
-                ..scene
-            };
-            return Ok((
-                Some(scene),
-                scene.domain().map_or(Vec::new(), |_| scene.shapes()),
-            ));
-        }
-        let Some(edge) = self.edge else {
-            return match self.distance {
-                Some(_) => Err(Failure::usage(
-                    "--distance needs --coordinates and --edge, or --mesh",
-                )),
-                None => Ok((None, Vec::new())),
-            };
-        };
-        let Some(coordinates) = self.coordinates else {
-            return Err(Failure::usage(
-                "--edge needs --coordinates: how far from 0 the scene reaches",
-            ));
-        };
-        let distance = self.distance.unwrap_or(2.0 * coordinates);
-        let (min_angle, grazing) = (self.min_angle, self.grazing);
-        let (is_of_longest, shape) = (false, None);
-        let scene = Scene {
-            coordinates,
-            edge,
-            is_of_longest,
-            distance,
-            min_angle,
-            grazing,
-            shape,
-        };
-        let shapes = scene.domain().map_or(Vec::new(), |_| scene.shapes());
-        Ok((Some(scene), shapes))
     }
 }

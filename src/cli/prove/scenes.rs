@@ -1,9 +1,80 @@
-//! Scenes: their words, and the scene that a mesh is.
+//! Scenes that something is proved in: how flags name them, the scene that a mesh is, and their words.
 
+use super::ProveArguments;
+use crate::audit::shell_word;
+use crate::case;
 use crate::cli::exit::Failure;
 use crate::cli::input::read_mesh;
+use crate::cli::sources::about_scene;
 use crate::files::InputError;
 use crate::prove::{Scene, Shape};
+
+impl ProveArguments {
+    /// The scene, and the sizes and areas of its triangles.
+    pub fn scene(&self) -> Result<(Option<Scene>, Vec<Shape>), Failure> {
+        if let Some(path) = &self.mesh {
+            let distance = self.distance.expect("required by --mesh");
+            let (scene, shapes) = mesh_scene(path, distance, self.grazing, self.output.quiet)?;
+            return Ok((Some(scene), shapes));
+        }
+        if let Some(text) = &self.scene {
+            let (scene, _) = case::Scene::parse(text).map_err(about_scene)?;
+            let scene = Scene::of(&scene).map_err(about_scene)?;
+            let scene = Scene {
+                min_angle: self.min_angle,
+                grazing: self.grazing,
+                ..scene
+            };
+            return Ok((
+                Some(scene),
+                scene.domain().map_or(Vec::new(), |_| scene.shapes()),
+            ));
+        }
+        let Some(edge) = self.edge else {
+            return match self.distance {
+                Some(_) => Err(Failure::usage(
+                    "--distance needs --coordinates and --edge, or --mesh",
+                )),
+                None => Ok((None, Vec::new())),
+            };
+        };
+        let Some(coordinates) = self.coordinates else {
+            return Err(Failure::usage(
+                "--edge needs --coordinates: how far from 0 the scene reaches",
+            ));
+        };
+        let distance = self.distance.unwrap_or(2.0 * coordinates);
+        let (min_angle, grazing) = (self.min_angle, self.grazing);
+        let (is_of_longest, shape) = (false, None);
+        let scene = Scene {
+            coordinates,
+            edge,
+            is_of_longest,
+            distance,
+            min_angle,
+            grazing,
+            shape,
+        };
+        let shapes = scene.domain().map_or(Vec::new(), |_| scene.shapes());
+        Ok((Some(scene), shapes))
+    }
+
+    /// The flags of `epsilon` that choose rays in such a scene.
+    pub fn rays(&self) -> String {
+        match (&self.scene, &self.mesh) {
+            (Some(scene), _) => format!("--scene {}", shell_word(scene)),
+            (None, Some(mesh)) => format!("--mesh {}", shell_word(mesh)),
+            _ => match (self.coordinates, self.edge) {
+                (Some(coordinates), Some([low, high])) => {
+                    let distance = self.distance.unwrap_or(2.0 * coordinates);
+                    let extent = coordinates.max(high);
+                    format!("--scene extent={extent},edge={low}..{high},distance=0..{distance}")
+                }
+                _ => "--scene room".to_owned(),
+            },
+        }
+    }
+}
 
 /// `0.01..10`, or one number for both.
 pub fn range(text: &str) -> Result<[f64; 2], String> {
