@@ -3,19 +3,22 @@
 //     hairline audit --kernel-lib ./libpermitted.so --scalar f32
 // It is Möller and Trumbore's test; -DWOOP is Woop, Benthin and Wald's. A kernel that says hit, miss or ask:
 //     hairline repair --kernel moller-trumbore --scalar f32 --emit c -o guarded.h
-//     c++ ... -DGUARDED='"guarded.h"' -DTEST=moller_trumbore_f32 -DASK=1 permitted.cpp
-// where ASK says what an answer of ask counts as: 1 a hit, so that each false miss is a wrong answer of the kernel; 0 a
-// miss, so that each false hit is one. Other answers: PERMITTED_SEED=2 in the environment; 0 rounds as IEEE 754.
+//     c++ ... -I. -DGUARDED='"guarded.h"' -DTEST=moller_trumbore_f32 -DASK=1 permitted.cpp
+// where ASK says what an answer of ask counts as: 1 a hit, so that each false miss of the closed triangle is a wrong answer
+// of the kernel; 0 a miss, so that each false hit of the open one is. Other answers: PERMITTED_SEED=2 in the environment; 0 rounds as IEEE 754.
 #include "hairline.h"
 #include "permitted.hpp"
+#include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #ifndef EXTENT
 #define EXTENT "line"
 #endif
 #ifdef GUARDED
 #define NAME "guarded-permitted"
-#define BOUNDARY "free"
+// What asks counts as a hit, so edges have to be hits: the closed triangle. As a miss: the open one.
+#define BOUNDARY (ASK ? "closed" : "open")
 #define float permitted
 #include GUARDED
 #define ANSWER_(test) test##_hit
@@ -95,8 +98,16 @@ const hairline_kernel *hairline_describe(void) {
     static hairline_kernel kernel = {};
     kernel.name = NAME;
     kernel.source = "examples/c/permitted.cpp";
-    kernel.contract = "extent=" EXTENT ",sides=both,boundary=" BOUNDARY;
-    if (const char *seed = std::getenv("PERMITTED_SEED")) permitted::seed() = std::strtoull(seed, nullptr, 10);
+    static const std::string contract = std::string("extent=" EXTENT ",sides=both,boundary=") + BOUNDARY;
+    kernel.contract = contract.c_str();
+    if (const char *seed = std::getenv("PERMITTED_SEED")) {
+        char *end;
+        permitted::seed() = std::strtoull(seed, &end, 10);
+        if (*seed == 0 || *end != 0) {
+            std::fprintf(stderr, "PERMITTED_SEED=%s: no number\n", seed);
+            std::exit(2);
+        }
+    }
     return &kernel;
 }
 
@@ -121,7 +132,6 @@ void hairline_test_f32(const hairline_case_f32 *cases, size_t count, const float
 #ifdef CHECK
 // Answers lines of an operation and the bits of two numbers with the bits of the result, for a test.
 #include <cinttypes>
-#include <cstdio>
 
 static float of_bits(uint32_t bits) {
     float number;

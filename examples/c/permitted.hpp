@@ -5,9 +5,10 @@
 //
 // WGSL (W3C, section 15.7) wants a sum, a difference or a product to be one of the two floats around the exact result,
 // not the nearer one, and a quotient to be within 2.5 units in the last place if the divisor is from 2^-126 to 2^126.
-// A product may be fused into a sum, and a subnormal number may be zero. Vulkan wants no more of SPIR-V where a shader
-// declares nothing else. The draw depends on the numbers and the seed alone: the same operation on the same numbers has
-// the same result. Sums are not reordered here, so what is drawn is a part of what is permitted.
+// A product may be fused into a sum where that is as accurate, and a subnormal number may be zero. Vulkan wants no more of SPIR-V where a shader
+// declares nothing else. The draw depends on the seed and the operands alone, in their order, and for a sum on the factors
+// of a term that is a product. WGSL lets a device reorder sums, too; that is not done here, so what is drawn is a part of
+// what is permitted.
 #pragma once
 #include <cfloat>
 #include <cmath>
@@ -88,17 +89,28 @@ struct permitted {
         product.other_factor = b.value;
         return product;
     }
-    // The nearest float, or one up to two farther, is never more than 2.5 units off.
+    // Any float within 2.5 units of the exact quotient. A unit is the least distance of two floats around the exact number, so
+    // beside a power of two it is that of the floats below.
     friend permitted operator/(const permitted &a, const permitted &b) {
         float quotient = a.value / b.value;
         const float size = std::fabs(b.value);
-        if (std::isnormal(quotient) && FLT_MIN <= size && size <= 0x1p126f) {
-            const int64_t steps = static_cast<int64_t>(draw(QUOTIENT, a.value, b.value, 0, 5));
-            // 0 to 2 steps up, or 1 or 2 down.
-            const float end = steps <= 2 ? INFINITY : -INFINITY;
-            for (int64_t i = steps <= 2 ? steps : steps - 2; i > 0; i--) quotient = std::nextafterf(quotient, end);
+        if (!std::isnormal(quotient) || size < FLT_MIN || size > 0x1p126f) return quotient;
+        const int64_t drawn = static_cast<int64_t>(draw(QUOTIENT, a.value, b.value, 0, 5));
+        // 0 to 2 steps up, or 1 or 2 down.
+        const float end = drawn <= 2 ? INFINITY : -INFINITY;
+        for (int64_t i = drawn <= 2 ? drawn : drawn - 2; i > 0; i--) {
+            const float next = std::nextafterf(quotient, end);
+            if (!is_within(next, a.value, b.value)) break;
+            quotient = next;
         }
         return quotient;
+    }
+    // True if a float is certainly within 2.5 units of a quotient. |q b - a| is rounded once to a double, by far less than is left.
+    static bool is_within(float q, float a, float b) {
+        const double exact = static_cast<double>(a) / b;
+        const float below = std::nextafterf(std::fabs(static_cast<float>(exact)), 0);
+        const double unit = static_cast<double>(std::fabs(static_cast<float>(exact))) - below;
+        return std::isnormal(q) && std::fabs(q - exact) <= 2.49 * unit;
     }
 
     friend bool operator<(const permitted &a, const permitted &b) { return a.value < b.value; }

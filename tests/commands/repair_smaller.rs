@@ -4,6 +4,8 @@ use crate::program::{ends, hairline, scratch};
 use hairline::internals::case::{Case, Parameters, Triangle};
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{Change, Scalar, Verdict, find};
+use std::fs;
+use std::path::Path;
 
 const PUBLISHED: [f32; 2] = [1e-6, 0.0];
 
@@ -433,4 +435,34 @@ fn a_kernel_with_epsilons_of_its_own_is_not_called_published() {
         let is_row = |name: &str| text.lines().any(|line| line.starts_with(name));
         assert!(is_row(name) && !text.contains(other), "{text}");
     }
+}
+
+/// The page of the guide shows what the program says, but for the times of the day.
+#[test]
+fn the_guides_sample_is_what_the_program_says() {
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guide/repair.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    let begin = "```\nmoller-trumbore (source) in f32\n";
+    let (_, sample) = guide.split_once(begin).unwrap();
+    let (sample, _) = sample.split_once("```").unwrap();
+    let folder = scratch("repair-guide");
+    let all = [
+        "repair",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "-q",
+    ];
+    let (text, _) = ends(&folder, &all, 0);
+    let (_, said) = text
+        .split_once("moller-trumbore (source) in f32\n")
+        .unwrap();
+    let without_cost = |line: &str| match line.rsplit_once("  ") {
+        Some((row, cost)) if cost.trim().parse::<f64>().is_ok() => row.trim_end().to_owned(),
+        _ => line.trim_end().to_owned(),
+    };
+    let sample: Vec<String> = sample.trim_end().lines().map(without_cost).collect();
+    let said: Vec<String> = said.lines().take(sample.len()).map(without_cost).collect();
+    assert_eq!(sample, said);
 }

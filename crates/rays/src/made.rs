@@ -11,7 +11,7 @@ use std::io::{self, Write};
 pub struct MadeRays<F>(pub Vec<Ray<F>>);
 
 impl<F: Scalar> MadeRays<F> {
-    /// A line of six numbers a ray, below their names.
+    /// A line of six numbers a ray, below their names; of eight where a ray has an interval of its own.
     pub const FORMATS: &'static [Format<MadeRays<F>>] = &[Format {
         name: "csv",
         write: |rays, _, out| rays.write(out),
@@ -19,13 +19,27 @@ impl<F: Scalar> MadeRays<F> {
 
     /// Writes them as CSV.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "ox,oy,oz,dx,dy,dz")?;
+        let is_whole = |ray: &Ray<F>| ray.t_min.is_zero() && ray.t_max == F::infinity();
+        let are_whole = self.0.iter().all(is_whole);
+        let ends = if are_whole { "" } else { ",t_min,t_max" };
+        writeln!(out, "ox,oy,oz,dx,dy,dz{ends}")?;
         for ray in &self.0 {
-            let numbers = [ray.origin, ray.direction].concat();
-            let words: Vec<String> = numbers.into_iter().map(number::write_shortest).collect();
+            let mut numbers = [ray.origin, ray.direction].concat();
+            if !are_whole {
+                numbers.extend([ray.t_min, ray.t_max]);
+            }
+            let words: Vec<String> = numbers.into_iter().map(word).collect();
             writeln!(out, "{}", words.join(","))?;
         }
         Ok(())
+    }
+}
+
+/// A number as a line of rays has it: JSON's infinity has quotes, that of CSV has none.
+fn word<F: Scalar>(x: F) -> String {
+    match x.is_finite() {
+        true => number::write_shortest(x),
+        false => "inf".to_owned(),
     }
 }
 

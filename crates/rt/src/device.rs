@@ -39,19 +39,23 @@ impl Run {
 impl Device {
     /// The first adapter with ray queries. `WGPU_BACKEND` and `WGPU_ADAPTER_NAME` choose among several.
     pub fn open() -> Result<Device, Failure> {
+        if let Ok(backends) = std::env::var("WGPU_BACKEND")
+            && wgpu::Backends::from_comma_list(&backends).is_empty()
+        {
+            return Err(Failure::data(format!(
+                "WGPU_BACKEND={backends}: no backend is called so; there are vulkan, dx12 and metal"
+            )));
+        }
         let instance =
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-        let wanted = std::env::var("WGPU_ADAPTER_NAME").unwrap_or_default();
-        let names: Vec<String> = adapters.iter().map(|it| it.get_info().name).collect();
-        let is_chosen = |adapter: &wgpu::Adapter| {
-            let name = adapter.get_info().name.to_lowercase();
-            name.contains(&wanted.to_lowercase())
-                && adapter
-                    .features()
-                    .contains(wgpu::Features::EXPERIMENTAL_RAY_QUERY)
+        let has_queries = |adapter: &wgpu::Adapter| {
+            let features = adapter.features();
+            features.contains(wgpu::Features::EXPERIMENTAL_RAY_QUERY)
         };
-        let Some(adapter) = adapters.into_iter().find(is_chosen) else {
+        let names: Vec<String> = adapters.iter().map(|it| it.get_info().name).collect();
+        let mut able: Vec<wgpu::Adapter> = adapters.into_iter().filter(has_queries).collect();
+        if able.is_empty() {
             return Err(Failure::unavailable(format!(
                 "no device with ray queries was found (there are: {}). A driver in software is Mesa's lavapipe of 2025 or later: \
                  on Debian 13 apt-get install mesa-vulkan-drivers",
@@ -60,7 +64,20 @@ impl Device {
                     false => names.join(", "),
                 }
             )));
+        }
+        let wanted = std::env::var("WGPU_ADAPTER_NAME").unwrap_or_default();
+        let is_chosen = |adapter: &wgpu::Adapter| {
+            let name = adapter.get_info().name.to_lowercase();
+            name.contains(&wanted.to_lowercase())
         };
+        let Some(chosen) = able.iter().position(is_chosen) else {
+            let names: Vec<String> = able.iter().map(|it| it.get_info().name).collect();
+            return Err(Failure::data(format!(
+                "WGPU_ADAPTER_NAME={wanted}: no device with ray queries has this in its name; there are: {}",
+                names.join(", ")
+            )));
+        };
+        let adapter = able.swap_remove(chosen);
         let passthrough = wgpu::Features::PASSTHROUGH_SHADERS & adapter.features();
         let request = wgpu::DeviceDescriptor {
             label: Some("hairline-rt"),

@@ -29,7 +29,15 @@ impl Failure {
         }
     }
 
-    /// A file cannot be read or written.
+    /// A file cannot be written.
+    pub fn of_output(path: &str, error: &io::Error) -> Failure {
+        Failure {
+            code: 74,
+            message: format!("{path}: {error}"),
+        }
+    }
+
+    /// A file cannot be read.
     pub fn of_file(path: &str, error: &io::Error) -> Failure {
         let code = match error.kind() {
             io::ErrorKind::NotFound => 66,

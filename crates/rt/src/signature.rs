@@ -5,7 +5,7 @@ mod precise;
 
 use crate::device::{Device, Shader};
 use crate::failure::Failure;
-use crate::output::{print, write_json};
+use crate::output::{check_output, print, write_json};
 use clap::ValueHint;
 use expressions::{EXPRESSIONS, Evaluation, Expression, INPUTS, Numbers, SUBNORMAL};
 use hairline_core::case::Draw;
@@ -73,6 +73,9 @@ struct Flushed {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(path) = &arguments.output {
+        check_output(path)?;
+    }
     let device = Device::open()?;
     let generic: Vec<Numbers> = (0..COUNT).map(generic).collect();
     let small: Vec<Numbers> = (0..64).map(small).collect();

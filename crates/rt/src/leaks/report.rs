@@ -95,7 +95,10 @@ impl Leaks {
         let from_afar = self.from_afar.iter().filter_map(|it| it.counted.as_ref());
         let aimed = from_inside.chain(from_afar);
         let mut rays: Vec<Ray<f32>> = aimed.flat_map(|aimed| aimed.lost_rays.clone()).collect();
-        let bits = |ray: &Ray<f32>| [ray.origin, ray.direction].map(|it| it.map(f32::to_bits));
+        let bits = |ray: &Ray<f32>| {
+            let [origin, direction] = [ray.origin, ray.direction].map(|it| it.map(f32::to_bits));
+            (origin, direction, ray.t_max.to_bits())
+        };
         rays.sort_by_key(bits);
         rays.dedup_by_key(|ray| bits(ray));
         rays
