@@ -6,7 +6,6 @@ use crate::tools::has;
 use hairline::internals::case::Draw;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
-
 use serde_json::Value;
 use std::cmp::Ordering;
 use std::fs;
