@@ -6,10 +6,13 @@ use super::flags::{matrix, placed};
 use super::output::OutputArguments;
 use super::select::KernelArguments;
 use crate::arith::Float;
-use crate::case::Instance;
+use crate::case::{Case, Instance};
 use crate::report::Format;
-use crate::report::explain::{Together, explain};
+use crate::report::explain::{Explanation, Together, explain};
+use crate::report::page::Picture;
 use clap::Args;
+use hairline_rays::pictured;
+use hairline_scene::{Ray, Scene};
 
 /// The flags of the command.
 #[derive(Args)]
@@ -48,10 +51,30 @@ pub fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
             neighbours: group.neighbours.as_deref(),
             instance: given.as_ref().or(group.instance.as_ref()),
         };
-        explain(&arguments.case.case, together, &rows)
+        Explanation {
+            picture: picture(&group.cases),
+            ..explain(&arguments.case.case, together, &rows)
+        }
     });
     arguments.output.write(pairs, &record)?;
     Ok(Status::Success)
+}
+
+/// The triangles and the ray in space; none if the ray means nothing, or no triangle is finite.
+fn picture<F: Float>(cases: &[Case<F>]) -> Option<Picture> {
+    let first = cases.first()?;
+    let [origin, direction, ..] = first.vectors();
+    let ray = Ray::new(origin, direction).on(first.ray.t_min, first.ray.t_max);
+    let mut vertices = Vec::new();
+    let mut faces = Vec::new();
+    for case in cases {
+        let [_, _, corners @ ..] = case.vectors();
+        let place = vertices.len() as u32;
+        faces.push([place, place + 1, place + 2]);
+        vertices.extend(corners);
+    }
+    let scene = Scene::new(&vertices, &faces).ok()?;
+    pictured(&scene, &ray, None).ok().flatten()
 }
 
 /// The instance of `--instance`, if it is given.

@@ -279,3 +279,29 @@ fn a_page_that_cannot_be_written_is_an_error_and_leaves_nothing() {
     let error = ends(&folder, &["audit", "--illustrate", "sometimes"], 2).1;
     assert!(error.contains("sometimes"), "{error}");
 }
+
+/// In space: what lies where is seen, also where the plane's drawing is a line.
+#[test]
+fn the_page_of_a_case_shows_its_triangles_and_ray_in_space() {
+    let folder = scratch("html-explain");
+    let of = |case: &str, format: &str| {
+        let all = [
+            "explain",
+            case,
+            "--kernel",
+            "moller-trumbore",
+            "--format",
+            format,
+        ];
+        ends(&folder, &all, 0).0
+    };
+    let fan = of("vertex-fan@1/f32/-/1/2", "html");
+    assert!(fan.contains("class=\"spot exact\"") && fan.contains("exact: faces 0, 1, 2 …"));
+    assert_eq!(fan.matches("class=\"face exact\"").count(), 5);
+    assert!(!of("vertex-fan@1/f32/-/1/2", "text").contains("exact: faces"));
+    // A ray that meets nothing is drawn too; of numbers that mean nothing there is no picture.
+    let missed = of("outside@3/f32/-/1/0", "html");
+    assert!(missed.contains("class=\"ray\"") && missed.contains("No face is hit."));
+    let nothing = "{scalar:f32,origin:[nan,0,0],direction:[0,0,1],a:[0,0,1],b:[1,0,1],c:[0,1,1]}";
+    assert!(!of(nothing, "html").contains("class=\"ray\""));
+}

@@ -51,6 +51,7 @@ pub fn explain<F: Scalar>(name: &str, group: Together<F>, rows: &[Row]) -> Expla
         scalar: F::NAME,
         triangles,
         together,
+        picture: None,
     }
 }
 

@@ -18,6 +18,7 @@ pub use verdict::Together;
 pub(crate) use verdict::number;
 
 use crate::corpus::truth_json::TruthLine;
+use crate::page::Picture;
 use serde::Serialize;
 use serde_json::value::RawValue;
 
@@ -34,6 +35,9 @@ pub struct Explanation {
     pub triangles: Vec<TrianglePart>,
     /// The rows on all triangles together; none of a single one.
     pub together: Vec<TogetherPart>,
+    /// The triangles and the ray in space, where a format has pictures; none where the ray means nothing.
+    #[serde(skip)]
+    pub picture: Option<Picture>,
 }
 
 /// A triangle and the ray.

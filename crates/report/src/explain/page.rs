@@ -31,6 +31,7 @@ impl Paged for Explanation {
             let is_in_title = !several && triangle.rows.len() == 1;
             blocks.extend(of_triangle(triangle, [i == 0, !several], is_in_title));
         }
+        blocks.extend(self.picture.clone().map(Block::Picture));
         let input = |triangle: &TrianglePart| Block::Listing(format!("{}\n", triangle.case.get()));
         let inputs = self.triangles.iter().map(input);
         blocks.push(Block::Details(
