@@ -159,6 +159,11 @@ fn verify(path: &str) -> Result<Status, Failure> {
         let name = manifest_path.display().to_string();
         let lines = manifest_lines(&name)?;
         nothing &= lines.is_empty();
+        if let Some(family) = manifest::left_out(lines.iter().map(|(_, line)| line)) {
+            return Err(Failure::bad_input(format!(
+                "{name}: no line for the family {family}: write it again with hairline corpus generate {path}"
+            )));
+        }
         let folder = manifest_path.parent().unwrap_or(Path::new("."));
         for (number, line) in &lines {
             progress.tell(format!("{name}: line {number} of {}", lines.len()));

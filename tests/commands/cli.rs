@@ -635,6 +635,12 @@ fn the_corpora_verify_and_a_changed_digest_does_not() {
     .unwrap();
     fs::write(folder.join("made/meshes/torus.obj"), "v 0 0 0\n").unwrap();
     assert!(refused(&folder, &["corpus", "verify", "made"], 65).contains("manifest.jsonl:"));
+    // A family that is new has no line yet.
+    let others = stored.lines().filter(|line| !line.contains("\"noise\""));
+    let others: Vec<&str> = others.collect();
+    fs::write(folder.join("made/manifest.jsonl"), others.join("\n")).unwrap();
+    let error = refused(&folder, &["corpus", "verify", "made"], 65);
+    assert!(error.contains("no line for the family noise"), "{error}");
     fs::write(folder.join("empty.jsonl"), "").unwrap();
     let error = refused(&folder, &["corpus", "verify", "empty.jsonl"], 4);
     assert!(error.contains("empty.jsonl: no case to verify"), "{error}");

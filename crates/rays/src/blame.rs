@@ -1,5 +1,5 @@
-//! Who loses the same hits: built-in kernels alone on the faces that it lies on, slab tests on the boxes of these, the transform of an
-//! instance, or an end of the interval.
+//! Who loses the hits that a program lost: a built-in kernel alone on the faces of each hit, a slab test on the boxes of these faces, the
+//! transform of an instance, or an end of the interval.
 
 use crate::audit::Row as KernelRow;
 use crate::case::{Case, Target};
@@ -19,7 +19,7 @@ pub struct HitOfRay<'a, F: Scalar> {
     pub hit: &'a Nearest,
 }
 
-/// About as many hits that a program found, or lost, are looked at.
+/// The most hits that are looked at, about: of those that a program lost, and of those that it found.
 const SAMPLE: usize = 50_000;
 
 /// So many faces of a hit at most.
@@ -62,6 +62,7 @@ pub fn lost_hits<F: Scalar>(
         let setup = Setup::published(entry).into_iter().next()?;
         let (test, epsilons) = (setup.subject().ok()?, setup.epsilons::<F>()?);
         let missed = sides.count(|side| side.boxes.missed_by(test, &epsilons));
+        // A program's boxes hold several faces. So a hit that it finds says little against a test that misses the box of one face.
         let explained = missed.of_lost.saturating_sub(sides.by_chance(&missed));
         Some(missed.named(entry.info.name, None, explained))
     });

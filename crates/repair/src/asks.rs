@@ -75,7 +75,7 @@ impl Asks {
         kinds.collect::<Vec<_>>().join(", ")
     }
 
-    /// The share of all rays.
+    /// The share of all rays on which it asks, in percent.
     pub fn whole(&self) -> String {
         let mut all = Answers::default();
         self.kinds

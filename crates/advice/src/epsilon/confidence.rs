@@ -8,7 +8,7 @@ pub const CONFIDENCE: f64 = 0.95;
 /// The share of wrong answers at a limit, as one in how many, where the trials can show it.
 pub const ONE_IN: u64 = 10_000;
 
-/// The most margins that are kept of each count. They are enough for `ONE_IN` of nine million trials; of more the
+/// The most margins that are kept of each count of wrong answers (one kind on one kind of rays). They are enough for `ONE_IN` of nine million trials; of more the
 /// share is smaller.
 pub const KEPT: usize = 1024;
 
@@ -17,9 +17,9 @@ pub const KEPT: usize = 1024;
 pub struct Ranks {
     /// The share, as one in how many.
     pub one_in: u64,
-    /// The last rank whose margin has at most the share before it, with confidence.
+    /// The last rank before which lies at most the share of all margins, with confidence.
     pub safe: u64,
-    /// The first rank whose margin has at least the share before it, with confidence.
+    /// The first rank before which lies at least the share of all margins, with confidence.
     pub far: u64,
 }
 

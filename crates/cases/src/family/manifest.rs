@@ -65,6 +65,17 @@ pub fn sets() -> impl Iterator<Item = ManifestLine> {
     sets.map(ManifestLine::Set)
 }
 
+/// The first family of this program without a generated set among some lines; none if the lines have no set at all.
+pub fn left_out<'a>(lines: impl Iterator<Item = &'a ManifestLine> + Clone) -> Option<&'static str> {
+    let mut sets = lines.filter_map(|line| match line {
+        ManifestLine::Set(set) => Some(set.family.as_str()),
+        ManifestLine::Mesh(_) => None,
+    });
+    let has_line = |family: &&Family| sets.clone().any(|name| name == family.name);
+    let missing = FAMILIES.iter().find(|family| !has_line(family))?;
+    sets.next().map(|_| missing.name)
+}
+
 fn set_line<F: Scalar>(family: &Family) -> SetLine {
     let parameters = Parameters::default();
     SetLine {

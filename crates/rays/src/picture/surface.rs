@@ -16,7 +16,7 @@ const PART: usize = 64;
 /// Shades from dark to light.
 const SHADES: usize = 4;
 
-/// A face hides a point that is farther behind it.
+/// A face hides a point that is farther behind it, in radii of the region.
 const THICKNESS: f64 = 1e-3;
 
 /// Parts of a dot in which coordinates are written.
