@@ -2,7 +2,7 @@
 //! pass. docs/guide/proof.md has the theorem.
 //!
 //! An edge gate compares λ·s with e: λ is a barycentric coordinate, s a scale that is at least σ. Its error is at most β. So it
-//! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -(β - e)/σ. A height is no longer than the longest edge.
+//! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -max(β - e, 0)/σ. A height is no longer than the longest edge.
 
 use super::bound::Proven;
 use super::facts::{Fact, Form, Reader};
@@ -279,11 +279,12 @@ impl Bounds<'_> {
     /// The same of one way to be accepted, where the scale is positive or negative.
     fn outside_on(&self, way: &[(usize, Fact)], side: bool) -> Proven<[f64; 2]> {
         let is_impossible = way.iter().any(|(gate, x)| {
-            way.iter().any(|(_, y)| {
+            way.iter().any(|(other_gate, y)| {
                 let is_negative =
                     (x.program, x.what) == (y.program, y.what) && x.is_plus != y.is_plus;
-                let e = self.epsilons[*gate];
-                is_negative && (e > 0.0 || e == 0.0 && (x.is_strict || y.is_strict))
+                // x >= e and -x >= e' leave no x if e + e' > 0.
+                let sum = self.epsilons[*gate] + self.epsilons[*other_gate];
+                is_negative && (sum > 0.0 || sum == 0.0 && (x.is_strict || y.is_strict))
             })
         });
         let has_sign = way.iter().any(|(_, fact)| fact.scale.has_sign());

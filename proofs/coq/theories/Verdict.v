@@ -18,7 +18,7 @@ apply Rmult_lt_reg_r with sigma; [lra |]. unfold Rdiv. rewrite Rmult_assoc, Rinv
 assert (l * sigma <= l * s) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
 
-(** As proof.md says it: "then each l is at least -(beta - e)/sigma". It needs e <= beta. *)
+(** The bound without its maximum with 0. It needs e <= beta. *)
 Theorem hit : e <= beta -> e <= g -> - ((beta - e) / sigma) <= l.
 Proof.
 intros E G. pose proof error2.

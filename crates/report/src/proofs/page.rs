@@ -234,10 +234,14 @@ fn conclusion(kernel: &KernelPart) -> Option<String> {
         true => ", but where another gate decides (below)",
         false => "",
     };
+    let limits = match verdicts.limits() {
+        Some(limits) => format!(" where {limits}"),
+        None => String::new(),
+    };
     (most < USELESS).then(|| {
         format!(
-            "In {}, for all floats of the domain below, an answer can be wrong only where the ray passes within {} of the triangle's longest \
-             edge of its boundary, in the triangle's plane{others}.",
+            "In {}, for all floats of the domain below{limits}, an answer can be wrong only where the ray passes within {} of the triangle's \
+             longest edge of its boundary, in the triangle's plane{others}.",
             kernel.scalar,
             above(most)
         )

@@ -3,6 +3,8 @@
 use crate::arith::Float;
 use crate::audit::{self, shell_word};
 use crate::case::Case;
+use crate::contract::Extent;
+use crate::kernel::Role;
 use crate::page::{Cell, Row};
 use crate::prove::{
     Depth, Judged, Scale, Searched, USELESS, Witness, WrongDecisions, above, below, case_of,
@@ -105,12 +107,21 @@ impl VerdictPart {
             may: may(&it.may),
             is_never: it.may == WrongDecisions::Never,
         };
+        let mut others: Vec<OtherPart> = verdicts.others.iter().map(other).collect();
+        let looks_at_t = row.entry.info.gates.iter().any(|gate| gate.role == Role::T);
+        if row.contract.extent != Extent::Line && !looks_at_t {
+            others.push(OtherPart {
+                gate: "t".to_owned(),
+                may: "is missing: hits behind the ray's start are let through.".to_owned(),
+                is_never: false,
+            });
+        }
         let mut part = VerdictPart {
             epsilons: row.epsilon_argument(),
             misses: depth(&verdicts.misses, &judged.known[0]),
             hits: depth(&verdicts.hits, &judged.known[1]),
             scales: verdicts.scales.iter().map(scale).collect(),
-            others: verdicts.others.iter().map(other).collect(),
+            others,
             sentences: Vec::new(),
         };
         part.sentences = part.in_words();
@@ -142,20 +153,25 @@ impl VerdictPart {
         }
     }
 
-    fn in_words(&self) -> Vec<String> {
+    /// The conditions of the statements besides the domain, as `|N·d| is at least 0.5, N = (b-a)×(c-a)`; none where a scene has it.
+    pub fn limits(&self) -> Option<String> {
         let is_limited = |it: &&ScalePart| it.number != "1" && self.misses.length.is_none();
         let limits = self.scales.iter().filter(is_limited);
         let limits = limits.map(|it| format!("{} is at least {}", it.number, below(it.at_least)));
         let mut limits: Vec<String> = limits.collect();
         limits.dedup();
-        let where_ = if limits.is_empty() {
-            String::new()
-        } else {
-            format!("Where {}, N = (b-a)×(c-a): ", limits.join(" and "))
+        let some = !limits.is_empty();
+        some.then(|| format!("{}, N = (b-a)×(c-a)", limits.join(" and ")))
+    }
+
+    fn in_words(&self) -> Vec<String> {
+        let [where_, there] = match self.limits() {
+            Some(limits) => [format!("Where {limits}: "), "There: ".to_owned()],
+            None => [String::new(), String::new()],
         };
         let mut all = vec![
             format!("{where_}{}", self.misses.sentence("false miss", "inside")),
-            self.hits.sentence("false hit", "outside"),
+            format!("{there}{}", self.hits.sentence("false hit", "outside")),
         ];
         let others = self.others.iter().filter(|other| !other.is_never);
         all.extend(others.map(|other| format!("Gate {} {}", other.gate, other.may)));
