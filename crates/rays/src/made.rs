@@ -39,7 +39,7 @@ impl<F: Scalar> MadeRays<F> {
 fn word<F: Scalar>(x: F) -> String {
     match x.is_finite() {
         true => number::write_shortest(x),
-        false => "inf".to_owned(),
+        false => x.to_f64().to_string(),
     }
 }
 
