@@ -232,7 +232,7 @@ pub fn run(arguments: &EpsilonArguments, matches: Option<&ArgMatches>) -> Result
     };
     let mut record = scene_record(&studied, &costs, max_error, seed, count, &context, parts);
     record.result.left_out = arguments.sources.left_out()?;
-    arguments.output.write(outputs, &record.sealed())?;
+    arguments.output.write(outputs, &record)?;
     Ok(Status::Success)
 }
 

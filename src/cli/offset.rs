@@ -227,10 +227,9 @@ pub fn run(arguments: &OffsetArguments) -> Result<Status, Failure> {
         seconds: progress.seconds(),
         threads,
     };
-    arguments.output.write(
-        outputs,
-        &Record::new(result, provenance_of(&context)).sealed(),
-    )?;
+    arguments
+        .output
+        .write(outputs, &Record::new(result, provenance_of(&context)))?;
     Ok(Status::Success)
 }
 

@@ -268,7 +268,7 @@ pub fn run(arguments: &ProveArguments) -> Result<Status, Failure> {
         threads: engine::threads(),
     };
     let report = Report {
-        record: Record::new(result, provenance_of(&context)).sealed(),
+        record: Record::new(result, provenance_of(&context)),
         scene: scene.as_ref().map(scene_text),
         rays: arguments.rays(),
         is_of_one: entries.len() == 1,

@@ -162,7 +162,7 @@ impl<'a> RaysRun<'a> {
             seconds: start.elapsed().as_secs_f64(),
             threads: self.threads,
         });
-        output.write(outputs, &Record::new(result, provenance).sealed())?;
+        output.write(outputs, &Record::new(result, provenance))?;
         Ok(status)
     }
 

@@ -269,7 +269,7 @@ impl Execution<'_> {
             illustrate(plan, &sums, &mut record);
             progress.finish();
         }
-        Ok(record.sealed())
+        Ok(record)
     }
 }
 

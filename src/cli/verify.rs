@@ -92,7 +92,7 @@ pub fn run(arguments: &VerifyArguments) -> Result<Status, Failure> {
     });
     arguments
         .output
-        .write(outputs, &Record::new(result, provenance).sealed())?;
+        .write(outputs, &Record::new(result, provenance))?;
     Ok(status)
 }
 

@@ -118,7 +118,7 @@ fn one_case_more_on_the_same_cases_is_worse() {
     let more: Record = serde_json::from_value(record.clone()).unwrap();
     std::fs::write(
         folder.join("more.json"),
-        serde_json::to_string(&more.sealed()).unwrap(),
+        serde_json::to_string(&more).unwrap(),
     )
     .unwrap();
     // A rate that its counts do not give is refused whatever the checksum says.

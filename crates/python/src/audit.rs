@@ -62,7 +62,6 @@ pub fn audit(py: Python<'_>, answers: Py<PyAny>, asked: Asked) -> PyResult<Audit
     if !flags.kernels.is_empty() {
         outcome.record.provenance.plan_flags = Some(flags);
     }
-    outcome.record = outcome.record.sealed();
     Ok(Audited {
         request,
         function,

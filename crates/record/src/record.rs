@@ -13,13 +13,13 @@ use crate::plan::Provenance;
 use crate::result::ResultPart;
 use crate::study::{Findings, Study};
 use hmac_sha256::Hash;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "hairline-record/2";
 
 /// Everything that one command found.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(
     feature = "schema",
     derive(schemars::JsonSchema),
@@ -34,17 +34,18 @@ pub struct Record<R = ResultPart> {
     pub study: Study,
     /// The findings.
     pub result: R,
-    /// SHA-256 of `result` as JSON without spaces, hexadecimal; a record that was changed since is refused.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// SHA-256 of `result` as JSON without spaces, hexadecimal, as a file has it: a record that was changed since is
+    /// refused.
+    #[serde(default)]
     pub checksum: Option<String>,
     /// The data that `merge` needs; only in a part of an audit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub shard: Option<ShardPart>,
     /// How that compares with what was expected; only of `check`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub conformance: Option<Conformance>,
     /// The data for pictures; only where an audit was asked for them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub illustrations: Option<Illustrations>,
     /// The drawing of a mesh, for pages alone.
     #[cfg(feature = "studies")]
@@ -72,8 +73,7 @@ impl<R: Findings> Record<R> {
     }
 
     /// The checksum of its findings as they are now.
-    #[cfg(feature = "studies")]
-    pub fn checksum_now(&self) -> String {
+    fn checksum_now(&self) -> String {
         let text = serde_json::to_string(&self.result).unwrap_or_default();
         hex(&Hash::hash(text.as_bytes()))
     }
@@ -90,13 +90,36 @@ impl<R: Findings> Record<R> {
         self.result.check(&self.provenance)?;
         self.provenance.check()
     }
+}
 
-    /// The same with its checksum.
-    #[cfg(feature = "studies")]
-    pub fn sealed(self) -> Record<R> {
-        Record {
-            checksum: Some(self.checksum_now()),
-            ..self
+/// Whatever writes a record writes the checksum of its findings too. It takes a second of an audit, so one that only a
+/// screen shows has none.
+impl<R: Findings> Serialize for Record<R> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Written<'a, R> {
+            schema: &'a str,
+            study: Study,
+            result: &'a R,
+            checksum: String,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            shard: &'a Option<ShardPart>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            conformance: &'a Option<Conformance>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            illustrations: &'a Option<Illustrations>,
+            provenance: &'a Provenance,
         }
+        Written {
+            schema: &self.schema,
+            study: self.study,
+            result: &self.result,
+            checksum: self.checksum_now(),
+            shard: &self.shard,
+            conformance: &self.conformance,
+            illustrations: &self.illustrations,
+            provenance: &self.provenance,
+        }
+        .serialize(serializer)
     }
 }

@@ -243,5 +243,5 @@ pub fn merged<E: From<String>>(
         );
     }
     record.provenance.parts = parts.provenance;
-    Ok(record.sealed())
+    Ok(record)
 }

@@ -2,14 +2,14 @@
 
 use super::chunk::Chunk;
 use super::group_count::JudgedGroup;
+use super::neighbours::{KnownNeighbours, Neighbours};
 use super::rows::RowIn;
 use super::source::Source;
-use crate::case::Case;
 use crate::contract::Contract;
 use crate::judge::{GroupTruth, may_be_elsewhere};
 use crate::kernel::{Scalar, Verdict, verdicts_of};
-use crate::oracle::Layers;
 use crate::truth::Facing;
+use std::rc::Rc;
 
 /// Neighbours of crossings without a hit that go through together, about.
 const NEIGHBOURS: usize = 4096;
@@ -23,9 +23,10 @@ impl<F: Scalar> RowIn<F> {
         chunk: &'c Chunk<F>,
         (contract, truths): (&Contract, &'c [GroupTruth]),
         verdicts: &'c [Verdict<F>],
+        known: &mut KnownNeighbours<F>,
     ) -> impl Iterator<Item = Result<JudgedGroup, u64>> + use<'c, F> {
         let elsewhere = match source.has_neighbours() {
-            true => self.elsewhere(source, chunk, (contract, truths), verdicts),
+            true => self.elsewhere(source, chunk, (contract, truths), verdicts, known),
             false => Vec::new(),
         };
         chunk
@@ -54,55 +55,68 @@ impl<F: Scalar> RowIn<F> {
         chunk: &Chunk<F>,
         (contract, truths): (&Contract, &[GroupTruth]),
         verdicts: &[Verdict<F>],
+        known: &mut KnownNeighbours<F>,
     ) -> Vec<u64> {
         let missed = chunk.groups().zip(truths).filter(|((_, cases), truth)| {
             let mut verdicts = verdicts[cases.clone()].iter();
             **truth == GroupTruth::Crossing
                 && verdicts.all(|verdict| !verdict.hit && verdict.failure.is_none())
         });
-        let (mut elsewhere, mut cases, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut elsewhere, mut waiting, mut cases) = (Vec::new(), Vec::new(), 0);
         for ((index, group), _) in missed {
             let Some(crossing) = chunk.truths[group.start].crossing() else {
                 continue;
             };
             // Where the neighbours are too many to be tried, nobody is accused.
-            if !source.add_neighbours(index, &chunk.cases[group], &mut cases) {
+            let Some(around) = known.of(source, index, &chunk.cases[group]) else {
                 elsewhere.push(index);
                 continue;
-            }
-            waiting.push((index, crossing.facing, cases.len()));
-            if cases.len() >= NEIGHBOURS {
-                elsewhere.extend(self.with_hit_nearby(source, contract, &mut cases, &waiting));
-                cases.clear();
+            };
+            cases += around.cases.len();
+            waiting.push(Missed {
+                index,
+                facing: crossing.facing,
+                around,
+            });
+            if cases >= NEIGHBOURS {
+                elsewhere.extend(self.with_hit_nearby(contract, &waiting));
                 waiting.clear();
+                cases = 0;
             }
         }
-        elsewhere.extend(self.with_hit_nearby(source, contract, &mut cases, &waiting));
+        elsewhere.extend(self.with_hit_nearby(contract, &waiting));
         elsewhere.sort_unstable();
         elsewhere
     }
 
-    /// The indices whose hit may be among the neighbours: each with the side that its group faces, and
-    /// where its neighbours end.
-    fn with_hit_nearby(
-        &self,
-        source: &Source,
-        contract: &Contract,
-        cases: &mut [Case<F>],
-        waiting: &[(u64, Facing, usize)],
-    ) -> Vec<u64> {
-        let mut truths = Vec::with_capacity(cases.len());
-        source.ask(cases, &mut truths, &mut Layers::default());
+    /// The indices whose hit may be among the neighbours.
+    fn with_hit_nearby(&self, contract: &Contract, missed: &[Missed<F>]) -> Vec<u64> {
+        let mut cases = Vec::new();
+        for group in missed {
+            cases.extend_from_slice(&group.around.cases);
+        }
         let mut verdicts = vec![Verdict::miss(None); cases.len()];
         if !cases.is_empty() {
-            verdicts_of(self.subject, cases, &self.epsilons, &mut verdicts);
+            verdicts_of(self.subject, &cases, &self.epsilons, &mut verdicts);
         }
-        let mut start = 0;
-        let found = waiting.iter().filter_map(|(index, facing, end)| {
-            let around = std::mem::replace(&mut start, *end)..*end;
-            let (truths, verdicts) = (&truths[around.clone()], &verdicts[around.clone()]);
-            may_be_elsewhere(*facing, &cases[around], truths, verdicts, contract).then_some(*index)
-        });
-        found.collect()
+        let mut found = Vec::new();
+        let mut rest = &verdicts[..];
+        for group in missed {
+            let Neighbours { cases, truths } = &*group.around;
+            let (verdicts, others) = rest.split_at(cases.len());
+            rest = others;
+            if may_be_elsewhere(group.facing, cases, truths, verdicts, contract) {
+                found.push(group.index);
+            }
+        }
+        found
     }
+}
+
+/// A crossing without a hit.
+struct Missed<F: Scalar> {
+    index: u64,
+    /// The side that its group faces.
+    facing: Facing,
+    around: Rc<Neighbours<F>>,
 }

@@ -3,6 +3,7 @@
 use super::accuracy::Errors;
 use super::chunk::Chunk;
 use super::digest::Digest;
+use super::neighbours::KnownNeighbours;
 use super::rows::RowIn;
 use super::run::ChunkDemands;
 use super::source::Source;
@@ -19,9 +20,25 @@ use crate::kernel::{Failure, KernelIn, Scalar, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Per-case data, computed lazily when some kernel is wrong on the case.
+/// What rows need to know of a chunk where they are wrong: whoever asks first has it computed, for all.
+pub(super) struct KnownOfChunk<F: Scalar> {
+    cases: Vec<Option<LazyCase>>,
+    neighbours: KnownNeighbours<F>,
+}
+
+impl<F: Scalar> KnownOfChunk<F> {
+    /// Nothing yet of so many cases.
+    pub fn new(cases: usize) -> KnownOfChunk<F> {
+        KnownOfChunk {
+            cases: vec![None; cases],
+            neighbours: KnownNeighbours::default(),
+        }
+    }
+}
+
+/// Data of a case on which some row is wrong.
 #[derive(Clone, Copy)]
-pub(super) struct LazyCase {
+struct LazyCase {
     /// None of invalid input.
     distances: Option<Distances>,
     /// The hash of the case's place.
@@ -45,7 +62,7 @@ impl<F: Scalar> RowIn<F> {
         (source, chunk): (&Source, &Chunk<F>),
         (contract, asked): (&Contract, &ChunkDemands),
         (verdicts, suspects): (&[Verdict<F>], &[usize]),
-        known: &mut [Option<LazyCase>],
+        known: &mut KnownOfChunk<F>,
         tally: &mut Tally,
     ) {
         tally.ask(&asked.classes);
@@ -71,7 +88,7 @@ impl<F: Scalar> RowIn<F> {
             if let Some(finding) = judge::judge(asked, (case, truth), gives, verdict) {
                 // Kernels tend to be wrong on the same cases.
                 let LazyCase { distances, hash } =
-                    known[i].get_or_insert_with(|| LazyCase::of(chunk, i));
+                    known.cases[i].get_or_insert_with(|| LazyCase::of(chunk, i));
                 let severity = distances.as_ref().map(|distances| {
                     let edges = match finding {
                         Finding::WrongValue => ValueErrors::of(case, truth, gives, verdict).edges,
@@ -106,7 +123,9 @@ impl<F: Scalar> RowIn<F> {
             tally.self_hits.hits += verdicts.iter().filter(|verdict| verdict.hit).count() as u64;
         }
         let groups = (contract, &asked.groups[..]);
-        for group in self.judge_groups(source, chunk, groups, verdicts).flatten() {
+        let around = &mut known.neighbours;
+        let judged = self.judge_groups(source, chunk, groups, verdicts, around);
+        for group in judged.flatten() {
             tally.group(&group, chunk.aimed(group.index), contract.across);
         }
     }

@@ -23,6 +23,7 @@ mod groups;
 mod histogram;
 mod interval;
 mod judging;
+mod neighbours;
 mod places;
 mod plan;
 mod relations;

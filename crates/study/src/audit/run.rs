@@ -2,6 +2,7 @@
 
 use super::causes::{self, Causes};
 use super::chunk::{Chunk, SourceSummary};
+use super::judging::KnownOfChunk;
 use super::plan::Plan;
 use super::rows::Rows;
 use super::shard::Shard;
@@ -255,7 +256,7 @@ impl<'a, F: Scalar> Runner<'a, F> {
         let sample = self.sample(source, &chunk);
         let asked = self.ask(&chunk);
         let mut verdicts = vec![Verdict::miss(None); chunk.cases.len()];
-        let mut known = vec![None; chunk.cases.len()];
+        let mut known = KnownOfChunk::new(chunk.cases.len());
         let limits = chunk.limits();
         let mut suspects = Vec::new();
         for (row, (tally, time)) in self.rows.each.iter().zip(&mut sums.rows) {
