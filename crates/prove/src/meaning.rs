@@ -190,6 +190,9 @@ impl<'a> Meanings<'a> {
         let found = all.into_iter().find(|(what, scale)| {
             samples.may_be(place, |i| product(*what, *scale, &samples.values[i].1))
                 && samples.is_exactly(place, |sample| product(*what, *scale, sample))
+                // Of the scale alone it is the size that is compared.
+                && (*what == What::One
+                    || samples.is_up_to_one_sign(place, |sample| product(*what, *scale, sample)))
         });
         let meaning = found.map(|(what, scale)| {
             let (values, sample) = &samples.values[0];

@@ -4,7 +4,7 @@
 use super::order::largest_axes;
 use super::run::{cone, values};
 use super::{Dyadic, Scene};
-use crate::arith::recorded::{Comparison, Place};
+use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Exact, Real, Triple, Vector};
 use crate::case::Draw;
 use crate::kernel::Path;
@@ -89,6 +89,20 @@ pub struct Samples<'a> {
     axes: Vec<usize>,
 }
 
+/// How many inputs show the sign of a number that has sizes in it, and how many are drawn for them: not all take the path.
+const SIGNED: usize = 32;
+const DRAWN: u64 = 1024;
+
+/// True if the numbers whose signs a path asks for have these signs.
+fn has_signs(path: &Path, inputs: &[f64; 17]) -> bool {
+    let values = values(&path.operations, inputs);
+    let mut decisions = path.decisions.iter();
+    decisions.all(|(comparison, answer)| match *comparison {
+        Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
+        _ => true,
+    })
+}
+
 /// Short numbers, so that exact arithmetic is fast. The triangle faces the ray as a path's signs say, if they do.
 fn inputs(path: &Path, i: u64) -> [f64; 17] {
     const ONE: i64 = 1 << 20;
@@ -96,15 +110,7 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
     let drawn = [(); 17].map(|()| draw.integer(-ONE, ONE) as f64 / ONE as f64);
     let mut turned = drawn;
     (9..12).for_each(|i| turned.swap(i, i + 3));
-    let has_signs = |inputs: &[f64; 17]| {
-        let values = values(&path.operations, inputs);
-        let mut decisions = path.decisions.iter();
-        decisions.all(|(comparison, answer)| match *comparison {
-            Comparison::Negative(place) => (values[place as usize] < 0.0) == *answer,
-            _ => true,
-        })
-    };
-    if !has_signs(&drawn) && has_signs(&turned) {
+    if !has_signs(path, &drawn) && has_signs(path, &turned) {
         turned
     } else {
         drawn
@@ -157,6 +163,30 @@ impl<'a> Samples<'a> {
         let value = values(&operations, inputs).pop();
         let value = value.expect("its own value");
         (value.abs() - other(sample).abs()).is_zero()
+    }
+
+    /// True if a number that is another one up to its sign at few inputs is it up to one sign wherever the path is taken. Of
+    /// two quotients of polynomials that is so. A size, as |x| or √(x·x), changes its sign beside x, and x + |x| is 2x or 0.
+    pub fn is_up_to_one_sign(&self, place: Place, other: impl Fn(&Sample<f64>) -> f64) -> bool {
+        let operations = cone(&self.path.operations, place).operations;
+        let is_size = |it: &Operation| matches!(it, Operation::Abs(_) | Operation::Sqrt(_));
+        if !operations.iter().any(is_size) {
+            return true;
+        }
+        let mut ratios = Vec::new();
+        for i in 0..DRAWN {
+            let inputs = inputs(self.path, SAMPLES + 1 + i);
+            if has_signs(self.path, &inputs) {
+                let value = values(&operations, &inputs).pop().expect("its own value");
+                ratios.push(value / other(&Sample::of(&inputs)));
+            }
+            if ratios.len() == SIGNED {
+                break;
+            }
+        }
+        let is_always = |sign: f64| ratios.iter().all(|ratio| (ratio - sign).abs() <= 1e-9);
+        // A path that is hardly ever taken shows nothing.
+        ratios.len() == SIGNED && (is_always(1.0) || is_always(-1.0))
     }
 
     /// True if a number is a barycentric coordinate, or 1 less one.

@@ -1,5 +1,6 @@
 mod constants;
 mod gates;
+mod meaning;
 mod measures;
 mod mirrors;
 mod permanent;
