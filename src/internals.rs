@@ -20,5 +20,5 @@ open!(expect, plugin);
 #[cfg(feature = "cli")]
 pub mod cli {
     pub use crate::cli::check::read_settings;
-    pub use crate::cli::exit::{Failure, Status};
+    pub use crate::command::exit::{Failure, Status};
 }

@@ -37,6 +37,8 @@ use hairline_advice::{advised, epsilon, offset};
 #[cfg(feature = "studies")]
 use hairline_cases::corpus;
 use hairline_cases::{family, mesh};
+#[cfg(feature = "cli")]
+use hairline_command as command;
 use hairline_core::{arith, case, contract, engine, kernel, oracle, printable, suggest};
 #[cfg(feature = "cli")]
 use hairline_expect as expect;
@@ -56,6 +58,9 @@ use hairline_study::{map, selfcheck, studied};
 #[cfg(feature = "studies")]
 use hairline_vectors as vectors;
 
+#[cfg(feature = "cli")]
+#[macro_use]
+extern crate hairline_command;
 #[cfg(feature = "studies")]
 #[macro_use(part)]
 extern crate hairline_record;
@@ -65,10 +70,6 @@ extern crate macro_rules_attribute;
 
 // The floors, from the ground up: each module uses only those above it in this list.
 mod conformance;
-#[cfg(feature = "cli")]
-mod descriptors;
-#[cfg(feature = "cli")]
-mod named_file;
 
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -1,16 +1,6 @@
-//! Floor 6: one file a command. The only place that prints, opens files and reads a clock.
+//! Floor 6: one file a command. It prints, opens files and reads a clock, as `crates/command` below it does.
 
 #![forbid(unsafe_code)]
-
-/// Prints a line to standard error. Unlike the standard library's it does not panic if nobody can read it; and what other
-/// people wrote, as a name or a reason, is shown by a terminal and not obeyed.
-macro_rules! eprintln {
-    ($($words:tt)*) => {{
-        use std::io::Write as _;
-        let line = $crate::printable::printable(&format!($($words)*));
-        let _ = writeln!(std::io::stderr(), "{line}");
-    }};
-}
 
 mod again;
 mod audit;
@@ -21,14 +11,11 @@ pub(crate) mod check;
 mod corpus;
 mod diff;
 mod epsilon;
-pub(crate) mod exit;
 mod explain;
-mod flags;
 mod fuzz;
 mod generate;
 mod github;
 mod help;
-mod input;
 mod known;
 mod list;
 mod map;
@@ -36,12 +23,6 @@ mod merge;
 mod mesh;
 mod misuse;
 mod offset;
-mod output;
-mod outputs;
-mod pace;
-mod places;
-mod plugins;
-mod progress;
 mod prove;
 mod rays;
 mod repair;
@@ -61,6 +42,8 @@ use help::EXAMPLES;
 
 use crate::arith::FloatEnvironment;
 use crate::case::Triangles;
+// The parts that all commands share are in a crate; commands name them as if they stood here.
+use crate::command::{exit, flags, input, output, outputs, plugins, progress};
 use crate::kernel::{self, Entry};
 use crate::plugin::{self, Asked};
 use crate::printable::is_obeyed;

@@ -1,8 +1,8 @@
 //! An audit from a test, held to a reviewed file of expectations.
 
+use crate::command::named_file::{self, SizeLimit};
 use crate::expect::{self, BlessError};
 use crate::files::InputError;
-use crate::named_file::{self, SizeLimit};
 use crate::record::Record;
 use hairline_core::{Error, ErrorKind};
 use std::fs::File;

@@ -10,10 +10,10 @@
 use crate::cli::exit::{Failure, Status};
 use crate::cli::output::write_json_lines;
 use crate::cli::select::KernelArguments;
+use crate::command::named_file::{self, SizeLimit};
 use crate::corpus::lines::{self, write_case};
 use crate::explore::campaign::{CampaignState, Find};
 use crate::files::InputError;
-use crate::named_file::{self, SizeLimit};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};

@@ -4,11 +4,11 @@ use crate::audit::Row;
 use crate::cli::exit::Failure;
 use crate::cli::fuzz::directory::{CAMPAIGN, FINDS, read_begun, read_finds};
 use crate::cli::input::files_under;
+use crate::command::named_file::{self, SizeLimit};
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::explore::campaign::Find;
 use crate::explore::inputs;
 use crate::files::InputError;
-use crate::named_file::{self, SizeLimit};
 use std::fs;
 use std::path::Path;
 

@@ -1,5 +1,7 @@
 //! The pace of a run, as far as it is steady enough to say when the run ends.
 
+#![forbid(unsafe_code)]
+
 use std::time::Duration;
 
 /// How far a run was at some time since its start.

@@ -1,7 +1,9 @@
 //! Which format goes to which file: by `--format`, or else by how the file's name ends.
 
-use super::exit::Failure;
-use super::places::place_of;
+#![forbid(unsafe_code)]
+
+use crate::exit::Failure;
+use crate::places::place_of;
 use crate::record::number_of;
 use crate::report::Format;
 use crate::suggest::nearest_name;

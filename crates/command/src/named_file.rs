@@ -1,7 +1,9 @@
-//! Floor 6, beside the command line: files that people name, or that somebody else has put where they are looked for.
+//! Files that people name, or that somebody else has put where they are looked for.
 //!
 //! A named pipe without a writer keeps a reader waiting for ever, and a device gives bytes without end: neither is read. What
 //! is read whole has a limit, so that no file fills the memory.
+
+#![forbid(unsafe_code)]
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -9,34 +11,34 @@ use std::path::Path;
 
 /// The most bytes that are read of a kind of file.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SizeLimit {
+pub struct SizeLimit {
     kind: &'static str,
     mebibytes: u64,
 }
 
 impl SizeLimit {
     /// A record, or a product's answers.
-    pub(crate) const RECORD: SizeLimit = SizeLimit {
+    pub const RECORD: SizeLimit = SizeLimit {
         kind: "a record",
         mebibytes: 256,
     };
     /// hairline.toml, and what a campaign was begun with.
-    pub(crate) const SETTINGS: SizeLimit = SizeLimit {
+    pub const SETTINGS: SizeLimit = SizeLimit {
         kind: "settings",
         mebibytes: 1,
     };
     /// Expectations, and their lock.
-    pub(crate) const EXPECTATIONS: SizeLimit = SizeLimit {
+    pub const EXPECTATIONS: SizeLimit = SizeLimit {
         kind: "expectations",
         mebibytes: 64,
     };
     /// A certificate; its checker takes no larger one.
-    pub(crate) const CERTIFICATE: SizeLimit = SizeLimit {
+    pub const CERTIFICATE: SizeLimit = SizeLimit {
         kind: "a certificate",
         mebibytes: 4,
     };
     /// Cases: finds, witnesses, inputs of a fuzzer.
-    pub(crate) const CASES: SizeLimit = SizeLimit {
+    pub const CASES: SizeLimit = SizeLimit {
         kind: "a file of cases",
         mebibytes: 256,
     };
@@ -47,7 +49,7 @@ impl SizeLimit {
 }
 
 /// Opens a file. A stream that a shell has opened, as for `<(command)`, is one too, and so is nothing.
-pub(crate) fn open(path: &Path) -> io::Result<File> {
+pub fn open(path: &Path) -> io::Result<File> {
     let is_open_already = ["/dev/fd", "/proc/self/fd"]
         .iter()
         .any(|folder| path.starts_with(folder))
@@ -64,12 +66,12 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
 }
 
 /// Reads a file whole.
-pub(crate) fn read(path: &Path, limit: SizeLimit) -> io::Result<Vec<u8>> {
+pub fn read(path: &Path, limit: SizeLimit) -> io::Result<Vec<u8>> {
     read_within(open(path)?, limit)
 }
 
 /// Reads a stream whole.
-pub(crate) fn read_within(stream: impl Read, limit: SizeLimit) -> io::Result<Vec<u8>> {
+pub fn read_within(stream: impl Read, limit: SizeLimit) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     stream.take(limit.bytes() + 1).read_to_end(&mut bytes)?;
     if limit.bytes() < bytes.len() as u64 {

@@ -1,9 +1,11 @@
 //! Kernels of the user's own: libraries and commands that flags name.
 
-use super::exit::{Failure, Status};
-use super::flags::{again, refuse_twice};
+#![forbid(unsafe_code)]
+
 use crate::audit::{quoted, shell_word};
+use crate::exit::{Failure, Status};
 use crate::files::hex;
+use crate::flags::{again, refuse_twice};
 use crate::kernel::{Entry, Scalar, TRIANGLES, Table};
 use crate::plugin::{Asked, HOST_COMMAND, KernelProgram, LoadError, ProcessLimits, load};
 use clap::Args;

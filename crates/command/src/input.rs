@@ -1,13 +1,15 @@
 //! Opening what the user names: meshes, corpus files and folders, standard input.
 
-use super::exit::Failure;
-use super::progress::Progress;
+#![forbid(unsafe_code)]
+
 use crate::audit::CorpusSet;
 use crate::corpus::lines::{self, AnyCase, StoredCase};
 use crate::descriptors;
+use crate::exit::Failure;
 use crate::files::InputError;
 use crate::files::mesh::{self, Mesh};
 use crate::named_file::{self, SizeLimit};
+use crate::progress::Progress;
 use crate::record::{Findings, Record, SCHEMA, Study, number_of};
 use serde::Deserialize;
 use std::collections::{HashMap, HashSet};
@@ -43,6 +45,7 @@ pub fn read_text(path: &str, limit: SizeLimit) -> Result<String, Failure> {
 pub struct RecordText<'a> {
     path: &'a str,
     text: String,
+    /// The study that it is of.
     pub study: Study,
 }
 

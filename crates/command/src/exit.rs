@@ -1,5 +1,7 @@
 //! Exit codes, and the errors that lead to them.
 
+#![forbid(unsafe_code)]
+
 use crate::files::InputError;
 use hairline_core::Error;
 use std::io;
@@ -37,22 +39,22 @@ pub enum Failure {
 
 impl Failure {
     /// Wrong usage or configuration.
-    pub(super) fn usage(message: impl Into<String>) -> Failure {
+    pub fn usage(message: impl Into<String>) -> Failure {
         Failure::Message(Status::Usage, message.into())
     }
 
     /// Nothing was selected.
-    pub(super) fn nothing(message: impl Into<String>) -> Failure {
+    pub fn nothing(message: impl Into<String>) -> Failure {
         Failure::Message(Status::NothingSelected, message.into())
     }
 
     /// Bad input data.
-    pub(super) fn bad_input(message: impl Into<String>) -> Failure {
+    pub fn bad_input(message: impl Into<String>) -> Failure {
         Failure::Message(Status::BadInput, message.into())
     }
 
     /// A fault of this program.
-    pub(super) fn self_check(message: impl Into<String>) -> Failure {
+    pub fn self_check(message: impl Into<String>) -> Failure {
         Failure::Message(Status::SelfCheck, message.into())
     }
 
@@ -73,12 +75,12 @@ impl Failure {
     }
 
     /// An error of reading or writing at a path.
-    pub(super) fn of_path(path: &Path, error: &io::Error) -> Failure {
+    pub fn of_path(path: &Path, error: &io::Error) -> Failure {
         Failure::of_file(&path.display().to_string(), error)
     }
 
     /// An error of reading or writing a file.
-    pub(super) fn of_file(file: &str, error: &io::Error) -> Failure {
+    pub fn of_file(file: &str, error: &io::Error) -> Failure {
         if error.kind() == io::ErrorKind::BrokenPipe {
             return Failure::ClosedPipe;
         }

@@ -1,9 +1,11 @@
 //! The parts that the flags of several commands share: headings of the help, names in tables, numbers.
 
-use super::exit::Failure;
+#![forbid(unsafe_code)]
+
 use crate::arith::{Float, ScalarName};
 use crate::audit::shell_word;
 use crate::case::{Instance, Matrix};
+use crate::exit::Failure;
 use crate::family::{self, FAMILIES, Family};
 use crate::files::number;
 use crate::kernel::{self, Entry};

@@ -1,5 +1,4 @@
-//! Floor 6, beside the command line: whether standard input and output were open when the program
-//! started.
+//! Standard input and output: an error if one was not open when the program started.
 //!
 //! Rust opens `/dev/null` in the place of a closed descriptor before `main`, and takes an error about one
 //! that is open the wrong way for success; so they are looked at before that.
@@ -13,13 +12,13 @@ static READABLE: AtomicBool = AtomicBool::new(true);
 static WRITABLE: AtomicBool = AtomicBool::new(true);
 
 /// An error if standard input cannot be read.
-pub(crate) fn standard_input() -> io::Result<()> {
+pub fn standard_input() -> io::Result<()> {
     let closed = || io::Error::other("closed, or not open for reading");
     READABLE.load(Relaxed).then_some(()).ok_or_else(closed)
 }
 
 /// An error if standard output cannot be written.
-pub(crate) fn standard_output() -> io::Result<()> {
+pub fn standard_output() -> io::Result<()> {
     let closed = || io::Error::other("closed, or not open for writing");
     WRITABLE.load(Relaxed).then_some(()).ok_or_else(closed)
 }

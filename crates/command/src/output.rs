@@ -1,12 +1,14 @@
 //! Where results go: standard output, or files that appear whole or not at all.
 
-use super::exit::Failure;
-use super::flags::OUTPUT;
-use super::outputs::{format_named_by, paired_outputs};
-use super::places::{is_descriptor, is_standard_output, linked, place_of};
-use super::plugins;
+#![forbid(unsafe_code)]
+
 use crate::descriptors;
+use crate::exit::Failure;
+use crate::flags::OUTPUT;
 use crate::named_file;
+use crate::outputs::{format_named_by, paired_outputs};
+use crate::places::{is_descriptor, is_standard_output, linked, place_of};
+use crate::plugins;
 use crate::printable::printable_lines;
 use crate::report::page::Page;
 use crate::report::{Format, Style, write_json_line};

@@ -1,5 +1,7 @@
 //! Which file a name on the command line stands for: itself, what a link leads to, or an open file.
 
+#![forbid(unsafe_code)]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

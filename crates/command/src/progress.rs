@@ -1,7 +1,9 @@
 //! The progress bar; nothing else knows indicatif.
 
-use super::pace::Pace;
+#![forbid(unsafe_code)]
+
 use crate::audit::Observer;
+use crate::pace::Pace;
 use crate::record::group_digits;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt;
