@@ -2,6 +2,7 @@
 
 use crate::audit::quoted;
 use crate::case::{AnyScalar, Case, rust_case};
+#[cfg(feature = "studies")]
 use crate::corpus::lines::bare_case;
 use crate::kernel::KERNELS;
 use crate::record::{
@@ -246,11 +247,16 @@ fn runs_elsewhere(kernel: &str, example: &Example) -> bool {
 }
 
 /// A case as JSON, or as a literal in Rust, from its bits; none of a group.
+#[cfg_attr(
+    not(feature = "studies"),
+    expect(unused_variables, reason = "no kernel is in another language")
+)]
 fn literal(bits: &str, as_json: bool) -> Option<String> {
     let in_f32 = Case::<f32>::from_hex(bits).map(AnyScalar::F32);
     let case = in_f32.or_else(|| Case::<f64>::from_hex(bits).map(AnyScalar::F64))?;
-    Some(match as_json {
-        true => bare_case(case),
-        false => either_scalar!(&case, case => rust_case(case)),
-    })
+    #[cfg(feature = "studies")]
+    if as_json {
+        return Some(bare_case(case));
+    }
+    Some(either_scalar!(&case, case => rust_case(case)))
 }

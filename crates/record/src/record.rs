@@ -6,14 +6,18 @@
 use crate::conformance::Conformance;
 #[cfg(feature = "studies")]
 use crate::drawing::MeshDrawing;
+#[cfg(feature = "studies")]
 use crate::files::hex;
 use crate::illustration::Illustrations;
 use crate::part::ShardPart;
 use crate::plan::Provenance;
 use crate::result::ResultPart;
 use crate::study::{Findings, Study};
+#[cfg(feature = "studies")]
 use hmac_sha256::Hash;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::Deserialize;
+#[cfg(feature = "studies")]
+use serde::{Serialize, Serializer};
 
 /// The schema's name and version.
 pub const SCHEMA: &str = "hairline-record/2";
@@ -73,6 +77,7 @@ impl<R: Findings> Record<R> {
     }
 
     /// The checksum of its findings as they are now.
+    #[cfg(feature = "studies")]
     fn checksum_now(&self) -> String {
         let text = serde_json::to_string(&self.result).unwrap_or_default();
         hex(&Hash::hash(text.as_bytes()))
@@ -94,6 +99,7 @@ impl<R: Findings> Record<R> {
 
 /// Whatever writes a record writes the checksum of its findings too. It takes a second of an audit, so one that only a
 /// screen shows has none.
+#[cfg(feature = "studies")]
 impl<R: Findings> Serialize for Record<R> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
