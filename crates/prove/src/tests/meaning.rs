@@ -9,7 +9,7 @@ use crate::{Domain, Format, Proof};
 use hairline_core::Contract;
 use std::cell::Cell;
 
-/// What the kernel of these tests compares with 0 at an edge, D being -N·d. At the others it is 2λ·D, so it culls.
+/// The number that the kernel of these tests compares with 0 at an edge, D being -N·d. At the others it is 2λ·D, so it culls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Compares {
     /// 2λ·D.

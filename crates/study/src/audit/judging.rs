@@ -20,7 +20,7 @@ use crate::kernel::{Failure, KernelIn, Scalar, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What rows need to know of a chunk where they are wrong: whoever asks first has it computed, for all.
+/// Answers that rows need of a chunk where they are wrong: whoever asks first has them computed, for all.
 pub(super) struct KnownOfChunk<F: Scalar> {
     cases: Vec<Option<LazyCase>>,
     neighbours: KnownNeighbours<F>,

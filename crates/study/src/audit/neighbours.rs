@@ -19,7 +19,7 @@ pub(super) struct Neighbours<F: Scalar> {
     pub truths: Vec<Truth>,
 }
 
-/// What is known of the groups of a chunk.
+/// The triangles around the groups of a chunk, as far as they are known.
 pub(super) struct KnownNeighbours<F: Scalar> {
     /// By index; none where they are too many to be asked.
     of_groups: BTreeMap<u64, Option<Rc<Neighbours<F>>>>,
