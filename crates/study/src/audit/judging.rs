@@ -5,7 +5,6 @@ use super::chunk::Chunk;
 use super::digest::Digest;
 use super::neighbours::KnownNeighbours;
 use super::rows::RowIn;
-use super::run::ChunkDemands;
 use super::source::Source;
 use super::tally::{ClassCount, Tally};
 use super::trials::RayProducts;
@@ -13,12 +12,21 @@ use crate::case::Case;
 use crate::contract::Contract;
 use crate::family::Grouping;
 use crate::judge::{
-    self, Class, Distances, Finding, Obligation, RelatedValues, ValueErrors, polygon_obligation,
-    polygon_truth,
+    self, Class, Demands, Distances, Finding, GroupTruth, Obligation, RelatedValues, ValueErrors,
+    polygon_obligation, polygon_truth,
 };
 use crate::kernel::{Failure, KernelIn, Scalar, Verdict};
 use crate::truth::Feature;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+/// A contract's demands on a chunk.
+pub(super) struct ChunkDemands {
+    pub expectations: Demands,
+    /// The demands, counted by class.
+    pub classes: Vec<ClassCount>,
+    pub groups: Arc<[GroupTruth]>,
+}
 
 /// Answers that rows need of a chunk where they are wrong: whoever asks first has them computed, for all.
 pub(super) struct KnownOfChunk<F: Scalar> {

@@ -1,8 +1,8 @@
 //! How often simple relations hold between the wrong answers of a kernel and the exact values: what its mistake may be.
 
 use super::chunk::Chunk;
+use super::judging::ChunkDemands;
 use super::rows::RowIn;
-use super::run::ChunkDemands;
 use crate::arith::Float;
 use crate::case::Case;
 use crate::contract::Contract;

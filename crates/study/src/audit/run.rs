@@ -2,7 +2,7 @@
 
 use super::causes::{self, Causes};
 use super::chunk::{Chunk, SourceSummary};
-use super::judging::KnownOfChunk;
+use super::judging::{ChunkDemands, KnownOfChunk};
 use super::plan::Plan;
 use super::rows::Rows;
 use super::shard::Shard;
@@ -11,12 +11,11 @@ use super::tally::{ClassCount, Tally};
 use crate::arith::ScalarName;
 use crate::engine::{self, Merge, Observer};
 use crate::family::Grouping;
-use crate::judge::{self, Class, Demands, Finding, GroupTruth};
+use crate::judge::{self, Class, Finding};
 use crate::kernel::{Scalar, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// One kernel row on one source in one scalar.
 #[derive(Clone, Serialize, Deserialize)]
@@ -171,14 +170,6 @@ struct Runner<'a, F: Scalar> {
     rows: Rows<F>,
     plan: &'a Plan,
     observer: &'a dyn Observer,
-}
-
-/// A contract's demands on a chunk.
-pub(super) struct ChunkDemands {
-    pub expectations: Demands,
-    /// The demands, counted by class.
-    pub classes: Vec<ClassCount>,
-    pub groups: Arc<[GroupTruth]>,
 }
 
 impl<'a, F: Scalar> Runner<'a, F> {
