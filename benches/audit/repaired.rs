@@ -37,20 +37,37 @@ pub enum Answer {
 /// Added to sizes whose numbers may have underflowed.
 const SLACK: f32 = 5.04871e-29;
 
-/// The sign of x, -1 or 1, if rounding cannot have changed it; otherwise 0.
-fn sure_sign(x: f32, size: f32, factor: f32) -> i32 {
-    let margin = factor * size + 1.2037062e-35;
-    i32::from(x > margin && x.is_finite()) - i32::from(x < -margin && x.is_finite())
+/// How far from zero a number must be for its sign to be right.
+fn margin_of(size: f32, factor: f32) -> f32 {
+    factor * size + 1.2037062e-35
+}
+
+/// The sign of x, -1 or 1, if rounding cannot have changed it; otherwise 0. No branch: signs are hard to predict.
+#[allow(dead_code)]
+fn sure_sign(x: f32, size: f32, factor: f32) -> i8 {
+    let margin = margin_of(size, factor);
+    i8::from((x > margin) & x.is_finite()) - i8::from((x < -margin) & x.is_finite())
 }
 
 /// The sign of an input, or of a difference of two.
 #[allow(dead_code)]
-fn exact_sign(x: f32) -> i32 {
-    i32::from(x > 0.0 && x.is_finite()) - i32::from(x < 0.0 && x.is_finite())
+fn exact_sign(x: f32) -> i8 {
+    i8::from((x > 0.0) & x.is_finite()) - i8::from((x < 0.0) & x.is_finite())
+}
+
+#[allow(dead_code)]
+fn lesser(x: f32, y: f32) -> f32 {
+    if x < y { x } else { y }
+}
+
+#[allow(dead_code)]
+fn greater(x: f32, y: f32) -> f32 {
+    if x > y { x } else { y }
 }
 
 /// The ray o + t * d and the triangle abc.
 #[allow(clippy::too_many_arguments, clippy::nonminimal_bool, clippy::neg_cmp_op_on_partial_ord, clippy::neg_multiply)]
+#[inline]
 pub fn moller_trumbore_f32(o: [f32; 3], d: [f32; 3], a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> Answer {
     let mut open = false;
     // gate parallel
@@ -70,29 +87,19 @@ pub fn moller_trumbore_f32(o: [f32; 3], d: [f32; 3], a: [f32; 3], b: [f32; 3], c
     // gate edge
     let ao_x = o[0] - a[0]; let ao_y = o[1] - a[1]; let ao_z = o[2] - a[2];
     let weight_of_b = ao_x * d_ac_x + ao_y * d_ac_y + ao_z * d_ac_z;
-    let size_ao_x = (ao_x).abs() + SLACK; let size_ao_y = (ao_y).abs() + SLACK; let size_ao_z = (ao_z).abs() + SLACK;
-    let size_weight_of_b = size_ao_x * size_d_ac_x + size_ao_y * size_d_ac_y + size_ao_z * size_d_ac_z;
-    let sign_weight_of_b = sure_sign(weight_of_b, size_weight_of_b, 3.6321617e-7);
-    if sign_det * sign_weight_of_b < 0 { return Answer::Miss; }
-    open |= !(sign_det * sign_weight_of_b > 0);
-    // gate edge
     let n16 = det - weight_of_b;
-    let sign_n16 = sure_sign(n16, size_det + size_weight_of_b, 5.420305e-7);
-    if sign_det * sign_n16 < 0 { return Answer::Miss; }
-    open |= !(sign_det * sign_n16 > 0);
-    // gate edge
     let ao_ab_x = ao_y * ab_z - ab_y * ao_z; let ao_ab_y = ao_z * ab_x - ab_z * ao_x;
     let ao_ab_z = ao_x * ab_y - ab_x * ao_y;
-    let weight_of_c = d[0] * ao_ab_x + d[1] * ao_ab_y + d[2] * ao_ab_z;
+    let weight_of_c = d[0] * ao_ab_x + d[1] * ao_ab_y + d[2] * ao_ab_z; let weight_of_a = det - (weight_of_b + weight_of_c);
+    let size_ao_x = (ao_x).abs() + SLACK; let size_ao_y = (ao_y).abs() + SLACK; let size_ao_z = (ao_z).abs() + SLACK;
+    let size_weight_of_b = size_ao_x * size_d_ac_x + size_ao_y * size_d_ac_y + size_ao_z * size_d_ac_z;
     let size_weight_of_c = size_d_0 * (size_ao_y * size_ab_z + size_ab_y * size_ao_z + SLACK) + size_d_1 * (size_ao_z * size_ab_x + size_ab_z * size_ao_x + SLACK) + size_d_2 * (size_ao_x * size_ab_y + size_ab_x * size_ao_y + SLACK);
-    let sign_weight_of_c = sure_sign(weight_of_c, size_weight_of_c, 3.6321617e-7);
-    if sign_det * sign_weight_of_c < 0 { return Answer::Miss; }
-    open |= !(sign_det * sign_weight_of_c > 0);
-    // gate edge
-    let weight_of_a = det - (weight_of_b + weight_of_c);
-    let sign_weight_of_a = sure_sign(weight_of_a, size_det + (size_weight_of_b + size_weight_of_c), 7.208448e-7);
-    if sign_det * sign_weight_of_a < 0 { return Answer::Miss; }
-    open |= !(sign_det * sign_weight_of_a > 0);
+    if !(weight_of_a).is_finite() { return Answer::Ask; }
+    let side = f32::from(sign_det);
+    let margin = margin_of(size_det + (size_weight_of_b + size_weight_of_c), 7.208448e-7);
+    let least = lesser(lesser(lesser(side * weight_of_b, side * n16), side * weight_of_c), side * weight_of_a);
+    if least < -margin { return Answer::Miss; }
+    open |= !(least > margin);
     if open { return Answer::Ask; }
     let inv_det = 1.0 / det;
     Answer::Hit { t: (ac_x * ao_ab_x + ac_y * ao_ab_y + ac_z * ao_ab_z) * inv_det, u: weight_of_b * inv_det, v: weight_of_c * inv_det }

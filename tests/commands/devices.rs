@@ -99,8 +99,8 @@ fn shaders_are_right_and_without_margins_they_are_not() {
                 return;
             };
             assert_eq!(wrong, [0, 0], "{kernel} {language}");
-            let margin = "margin = factor * size + ";
-            replace(&file, margin, "margin = 0.0 * factor * size + ");
+            let margin = "return factor * size + ";
+            replace(&file, margin, "return 0.0 * factor * size + ");
             let [hits, misses] = wrong_on_a_device(&folder, &file, "").unwrap();
             assert!(
                 0 < hits && 0 < misses,

@@ -281,9 +281,9 @@ fn a_guarded_kernel_has_no_wrong_answer_seen_and_with_half_of_its_margins_some()
         "-q",
     ];
     let (text, _) = ends(&folder, &words, 0);
-    let margin = "const float margin = factor * size";
+    let margin = "return factor * size";
     assert!(text.contains(margin));
-    let narrow = text.replace(margin, "const float margin = 0.5f * factor * size");
+    let narrow = text.replace(margin, "return 0.5f * factor * size");
     for (name, text) in [("whole", &text), ("narrow", &narrow)] {
         let header = folder.join(format!("{name}.h"));
         fs::write(&header, text).unwrap();

@@ -126,7 +126,7 @@ fn no_answer_is_wrong_however_it_is_compiled_and_without_margins_many_are() {
         let file = emitted(&folder, kernel, "f32");
         let text = fs::read_to_string(&file).unwrap();
         // A fiftieth of each margin is not enough.
-        let weaker = text.replace("margin = factor * size", "margin = 0.02f * factor * size");
+        let weaker = text.replace("return factor * size", "return 0.02f * factor * size");
         assert_ne!(text, weaker);
         fs::write(&file, weaker).unwrap();
         let [.., wrong] = tried(&folder, &file, promise, &["-O1"]);
@@ -262,7 +262,14 @@ fn the_c_answers_bit_for_bit_what_the_recorded_program_does() {
     if !has("cc") {
         return;
     }
-    for kernel in ["moller-trumbore", "woop-watertight", "baldwin-weber"] {
+    // Chains of gates with one side and with several, of one margin and of the largest of some, and gates that are none.
+    for kernel in [
+        "moller-trumbore",
+        "woop-watertight",
+        "baldwin-weber",
+        "scalar-triple-two-sided",
+        "havel-herout",
+    ] {
         is_alike::<f32>(
             kernel,
             |x| x.to_ne_bytes().to_vec(),

@@ -3,8 +3,9 @@
 use crate::arith::recorded::{Comparison, Place};
 use crate::language::Dialect;
 use crate::nodes::{Node, Nodes, Scope};
-use crate::prove::repair::{Axes, Guarded, Literal, Pattern, Step};
+use crate::prove::repair::{Axes, Chain, Guarded, Literal, Pattern, Step};
 use std::collections::BTreeSet;
+use std::collections::hash_map::Entry;
 
 /// The body of a function, line by line.
 pub struct Code<'a> {
@@ -56,11 +57,13 @@ impl<'a> Code<'a> {
 
     /// Defines the signs of all numbers in some literals.
     fn signs(&mut self, literals: &[&Literal], scope: &mut Scope) {
-        let places: BTreeSet<Place> = literals
-            .iter()
-            .flat_map(|literal| literal.places())
-            .collect();
-        for place in places {
+        let places = literals.iter().flat_map(|literal| literal.places());
+        self.signs_of(places, scope);
+    }
+
+    /// The same of some numbers.
+    fn signs_of(&mut self, places: impl Iterator<Item = Place>, scope: &mut Scope) {
+        for place in places.collect::<BTreeSet<Place>>() {
             if scope.signs.insert(place) {
                 self.sign(place, scope);
             }
@@ -143,13 +146,22 @@ impl<'a> Code<'a> {
             }
             Step::Gate(gate, [hits, misses], next) => {
                 let start = self.lines.len();
-                self.gate(hits, misses, &mut scope);
+                let chain = self.guarded.chain(step);
+                match &chain {
+                    Some(chain) => self.chain(chain, &mut scope),
+                    None => self.gate(hits, misses, &mut scope),
+                }
                 if start < self.lines.len() {
-                    let name = self.guarded.info.gates[*gate].name;
-                    let comment = format!("{}// gate {name}", "    ".repeat(self.depth));
+                    let alone = [*gate];
+                    let gates = chain.as_ref().map_or(&alone[..], |chain| &chain.gates);
+                    let names = gates.iter().map(|gate| self.guarded.info.gates[*gate].name);
+                    let names = names.collect::<Vec<_>>().join(", ");
+                    let plural = if gates.len() == 1 { "" } else { "s" };
+                    let indent = "    ".repeat(self.depth);
+                    let comment = format!("{indent}// gate{plural} {names}");
                     self.lines.insert(start, self.dialect.comment(&comment));
                 }
-                self.step(next, scope);
+                self.step(chain.map_or(next, |chain| chain.next), scope);
             }
             Step::Axes(axes, next) => {
                 self.line(self.dialect.axes());
@@ -167,7 +179,8 @@ impl<'a> Code<'a> {
         let literals: Vec<&Literal> = hits.iter().chain(misses).flatten().collect();
         self.signs(&literals, scope);
         if !misses.is_empty() {
-            let condition = self.sure_miss(misses);
+            let places = misses.iter().flatten().flat_map(Literal::places);
+            let condition = self.sure_miss(places.collect(), self.patterns(misses));
             self.line(self.dialect.early(&condition, "MISS"));
         }
         match hits {
@@ -178,11 +191,71 @@ impl<'a> Code<'a> {
         }
     }
 
-    /// The condition for a miss. An end of the interval that it depends on must not have been cut to the largest size.
-    fn sure_miss(&self, misses: &[Pattern]) -> String {
-        let literals = misses.iter().flatten();
-        let places: Vec<Place> = literals.flat_map(Literal::places).collect();
-        let mut condition = self.patterns(misses);
+    /// Asks where a number is no finite one, misses if the least of the numbers is surely negative, and leaves the gates open
+    /// unless it is surely positive.
+    fn chain(&mut self, chain: &Chain, scope: &mut Scope) {
+        self.signs_of(chain.sides.iter().copied(), scope);
+        let numbers = chain.numbers.iter().map(|(_, place)| *place);
+        let sizes: Vec<Node> = chain
+            .widest
+            .iter()
+            .map(|place| Node::size(*place))
+            .collect();
+        let values = numbers.map(Node::Value);
+        let nodes: Vec<Node> = values.chain(sizes.iter().copied()).collect();
+        self.define(&nodes, scope);
+        let dialect = self.dialect;
+        let value = |place: &Place| self.nodes.text(Node::Value(*place));
+        let widest: Vec<String> = chain.widest.iter().map(value).collect();
+        let sizes = sizes.into_iter().map(|size| self.nodes.text(size));
+        let size = dialect.extreme("greater", sizes.collect());
+        let factor = dialect.number(chain.factor);
+        scope.chains += 1;
+        let names = ["side", "margin", "least"].map(|stem| match scope.chains {
+            1 => stem.to_owned(),
+            count => format!("{stem}{count}"),
+        });
+        let [side, margin, least] = names;
+        if let Some(line) = dialect.unless_finite(&widest.join(" + ")) {
+            self.line(line);
+        }
+        let side = self.side(chain, side, scope);
+        let turned = |(is_negative, place): &(bool, Place)| {
+            let sign = if *is_negative { "-" } else { "" };
+            format!("{side}{sign}{}", self.nodes.text(Node::Value(*place)))
+        };
+        let numbers = chain.numbers.iter().map(turned).collect();
+        let function = dialect.function("margin_of");
+        let definitions = [
+            (&margin, format!("{function}({size}, {factor})")),
+            (&least, dialect.extreme("lesser", numbers)),
+        ];
+        for (name, text) in definitions {
+            self.line(dialect.definitions(&[(name.clone(), text)]));
+        }
+        let condition = self.sure_miss(chain.places(), format!("{least} < -{margin}"));
+        self.line(dialect.early(&condition, "MISS"));
+        self.line(dialect.assign_open(&format!("{least} > {margin}")));
+    }
+
+    /// The factor that turns the numbers of a chain, with the sign of a product behind it. Its name is new if it has none yet.
+    fn side(&mut self, chain: &Chain, name: String, scope: &mut Scope) -> String {
+        let signs = chain.sides.iter().map(|place| self.sign_name(*place));
+        let signs = signs.collect::<Vec<String>>().join(" * ");
+        if signs.is_empty() {
+            return signs;
+        }
+        let known = scope.sides.entry(chain.sides.clone());
+        if let Entry::Vacant(_) = known {
+            let definition = (name.clone(), self.dialect.real(&signs));
+            self.line(self.dialect.definitions(&[definition]));
+        }
+        format!("{} * ", known.or_insert(name))
+    }
+
+    /// The condition for a miss by some numbers. An end of the interval that one depends on must not have been cut to the
+    /// largest size.
+    fn sure_miss(&self, places: Vec<Place>, mut condition: String) -> String {
         for (end, is_whole) in [(0, "t_from == t_min"), (1, "t_to == t_max")] {
             let depends = |place: &Place| self.guarded.uses_end(*place, end);
             if !places.iter().any(depends) {

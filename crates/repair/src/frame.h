@@ -20,16 +20,22 @@ enum {{ HAIRLINE_MISS = 0, HAIRLINE_HIT = 1, HAIRLINE_ASK = 2 }};
 {sums}
 #ifndef HAIRLINE_SURE_{upper}
 #define HAIRLINE_SURE_{upper}
-/* The sign of x, -1 or 1, if rounding cannot have changed it; otherwise 0. */
+/* How far from zero a number must be for its sign to be right. */
+HAIRLINE_FUNCTION {real} hairline_margin_of_{scalar}({real} size, {real} factor) {{ return factor * size + {tiny}; }}
+
+/* The sign of x, -1 or 1, if rounding cannot have changed it; otherwise 0. No branch: signs are hard to predict. */
 HAIRLINE_FUNCTION int hairline_sure_sign_{scalar}({real} x, {real} size, {real} factor) {{
-    const {real} margin = factor * size + {tiny};
-    return x > margin && x <= {most} ? 1 : x < -margin && x >= -{most} ? -1 : 0;
+    const {real} margin = hairline_margin_of_{scalar}(size, factor);
+    return ((x > margin) & (x <= {most})) - ((x < -margin) & (x >= -{most}));
 }}
 
 /* The sign of an input, or of a difference of two. */
 HAIRLINE_FUNCTION int hairline_exact_sign_{scalar}({real} x) {{
-    return x > 0 && x <= {most} ? 1 : x < 0 && x >= -{most} ? -1 : 0;
+    return ((x > 0) & (x <= {most})) - ((x < 0) & (x >= -{most}));
 }}
+
+HAIRLINE_FUNCTION {real} hairline_lesser_{scalar}({real} x, {real} y) {{ return x < y ? x : y; }}
+HAIRLINE_FUNCTION {real} hairline_greater_{scalar}({real} x, {real} y) {{ return x > y ? x : y; }}
 #endif
 
 typedef struct {{

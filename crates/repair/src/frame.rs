@@ -129,7 +129,8 @@ Why: a sum of products, each of which passes at most K roundings before the last
 ((1+u)^K - 1) times the sum of their sizes, u = 2^-{digits}. Its sign is right beyond factor * sizes; the factor
 covers the rounding of the sizes too. It supposes rounding to nearest, and differences of points that are computed
 as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;
-SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What
+SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. Where gates in a row
+want numbers to be positive, or to have the sign of another, the least of them decides: by one margin, at least each one's own. What
 {range}
 {fusing}
 {margins}Proof: {command} --certificate FILE; hairline prove --check FILE",
@@ -342,16 +343,24 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
             };
             names.iter().map(one).collect()
         };
-        let function = |name: &str, inputs: Vec<String>| match is_wgsl {
-            true => format!("fn {name}({}) -> i32", inputs.join(", ")),
-            false => format!("int {name}({})", inputs.join(", ")),
+        let function_of = |kind: &str, name: &str, inputs: Vec<String>| match is_wgsl {
+            true => format!("fn {name}({}) -> {kind}", inputs.join(", ")),
+            false => format!("{kind} {name}({})", inputs.join(", ")),
         };
+        let integer = if is_wgsl { "i32" } else { "int" };
+        let function = |name: &str, inputs| function_of(integer, name, inputs);
         let sign = |above: &str, below: &str| match is_wgsl {
             true => format!("select(0, 1, x > {above}) - select(0, 1, x < {below})"),
             false => format!("x > {above} ? 1 : x < {below} ? -1 : 0"),
         };
-        let margin = [("margin".to_owned(), format!("factor * size + {tiny}"))];
+        let of_size = format!("hairline_margin_of_{scalar}");
+        let margin = [("margin".to_owned(), format!("{of_size}(size, factor)"))];
         let margin = self.dialect.definitions(&margin);
+        let of_size = function_of(
+            real,
+            &of_size,
+            typed(real, &["size", "factor"].map(str::to_owned)),
+        );
         let sure = function(
             &format!("hairline_sure_sign_{scalar}"),
             typed(real, &["x", "size", "factor"].map(str::to_owned)),
@@ -399,6 +408,11 @@ SLACK and the margin's least size cover underflow, subnormal numbers flushed or 
         };
         format!(
             "{constants}
+// How far from zero a number must be for its sign to be right.
+{of_size} {{
+    return factor * size + {tiny};
+}}
+
 // The sign of x, -1 or 1, if rounding cannot have changed it; otherwise 0.
 {sure} {{
     {margin}

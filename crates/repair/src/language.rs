@@ -144,6 +144,40 @@ and an override are known to the compiler."
         }
     }
 
+    /// The least of some numbers, or the most.
+    pub fn extreme(self, name: &str, numbers: Vec<String>) -> String {
+        let function = match (self.language.is_of_shaders(), name) {
+            (true, "lesser") => "min".to_owned(),
+            (true, _) => "max".to_owned(),
+            _ => self.function(name),
+        };
+        let all = numbers.into_iter();
+        let of_two = |all: String, next: String| format!("{function}({all}, {next})");
+        all.reduce(of_two).unwrap_or_default()
+    }
+
+    /// A product of integers as a number of the scalar's type.
+    pub fn real(self, product: &str) -> String {
+        let scalar = self.scalar();
+        match self.language {
+            C | Cuda if product.contains(' ') => format!("({scalar})({product})"),
+            C | Cuda => format!("({scalar}){product}"),
+            Rust => format!("{scalar}::from({product})"),
+            _ => format!("{scalar}({product})"),
+        }
+    }
+
+    /// Asks unless a number is finite. Shaders have asked already where one might not be.
+    pub fn unless_finite(self, x: &str) -> Option<String> {
+        let most = if self.is_f32 { "FLT_MAX" } else { "DBL_MAX" };
+        let is_infinite = match self.language {
+            C | Cuda => format!("!({} <= {most})", self.abs(x)),
+            Rust => format!("!({x}).is_finite()"),
+            _ => return None,
+        };
+        Some(self.early(&is_infinite, "ASK"))
+    }
+
     /// Definitions of numbers, on one line.
     pub fn definitions(self, all: &[(String, String)]) -> String {
         let scalar = self.scalar();

@@ -36,6 +36,10 @@ impl Node {
 pub struct Scope {
     pub nodes: HashSet<Node>,
     pub signs: HashSet<Place>,
+    /// The products of signs that are known as numbers, by name.
+    pub sides: HashMap<Vec<Place>, String>,
+    /// How many chains of gates there are so far.
+    pub chains: usize,
 }
 
 /// The nodes of one kernel.

@@ -1,7 +1,7 @@
 //! The answers of a guarded kernel: its program run on floats.
 
 use super::super::{Dyadic, Searched, run::run};
-use super::{Axes, Guarded, Literal, Pattern, Step};
+use super::{Axes, Chain, Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Float, Real};
 use crate::case::Case;
@@ -100,6 +100,15 @@ impl<F: Float> Run<'_, F> {
                     }
                 }
                 Step::Gate(_, [hits, misses], next) => {
+                    if let Some(chain) = self.guarded.chain(step) {
+                        match self.decision(&chain) {
+                            Some(Answer::Hit(_)) => {}
+                            None => is_open = true,
+                            Some(answer) => return answer,
+                        }
+                        step = chain.next;
+                        continue;
+                    }
                     if misses.iter().any(|pattern| self.rejects(pattern)) {
                         return Answer::Miss;
                     }
@@ -119,6 +128,31 @@ impl<F: Float> Run<'_, F> {
                 Step::Ask => return Answer::Ask,
             }
         }
+    }
+
+    /// A hit if a chain of gates accepts, another answer if it is the answer at once; none if the gates stay open.
+    fn decision(&self, chain: &Chain) -> Option<Answer<F>> {
+        let sum = |sum: F, place: &Place| sum + self.value(*place);
+        let total = chain.widest.iter().fold(-F::zero(), sum);
+        if !total.is_finite() {
+            return Some(Answer::Ask);
+        }
+        let signs = chain.sides.iter().map(|place| self.sign(*place));
+        let side = F::from_f64(signs.product::<i8>().into());
+        let turned = |(is_negative, place): &(bool, Place)| {
+            let value = self.value(*place);
+            side * if *is_negative { -value } else { value }
+        };
+        let numbers = chain.numbers.iter().map(turned);
+        let least = numbers.reduce(|x, y| if x < y { x } else { y })?;
+        let sizes = chain.widest.iter().map(|place| self.sizes[*place as usize]);
+        let size = sizes.reduce(|x, y| if x > y { x } else { y })?;
+        let margin = F::from_f64(chain.factor) * size + self.tiny;
+        if least > margin {
+            return Some(Answer::Hit([None; 3]));
+        }
+        let is_miss = least < -margin && !self.is_clamped(chain.places().into_iter());
+        is_miss.then_some(Answer::Miss)
     }
 
     fn rename(&mut self, mut axes: &Axes) {
@@ -148,12 +182,15 @@ impl<F: Float> Run<'_, F> {
         if !pattern.iter().all(|literal| self.holds(literal)) {
             return false;
         }
-        // An end that another number stands for proves no miss.
-        let is_far = |end: u8| {
-            let mut places = pattern.iter().flat_map(Literal::places);
-            places.any(|place| self.guarded.uses_end(place, end))
-        };
-        !(0..2).any(|end| self.clamped[usize::from(end)] && is_far(end))
+        !self.is_clamped(pattern.iter().flat_map(Literal::places))
+    }
+
+    /// True if some numbers are made from an end that another number stands for: it proves no miss.
+    fn is_clamped(&self, mut places: impl Iterator<Item = Place>) -> bool {
+        places.any(|place| {
+            let uses = |end: u8| self.guarded.uses_end(place, end);
+            (0..2).any(|end| self.clamped[usize::from(end)] && uses(end))
+        })
     }
 
     fn holds(&self, literal: &Literal) -> bool {

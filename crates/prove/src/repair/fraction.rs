@@ -43,6 +43,26 @@ impl Literal {
         }
     }
 
+    /// The condition that both hold or both fail, and no sign in them is unsure.
+    pub fn times(&self, other: &Literal) -> Literal {
+        let mut product = self.clone();
+        product.is_negative ^= other.is_negative;
+        product.nonzero.extend(&other.nonzero);
+        for place in &other.signs {
+            // A square is not negative.
+            match product.signs.iter().position(|known| known == place) {
+                Some(at) => product.nonzero.push(product.signs.remove(at)),
+                None => product.signs.push(*place),
+            }
+        }
+        let Literal { signs, nonzero, .. } = &mut product;
+        signs.sort_unstable();
+        nonzero.sort_unstable();
+        nonzero.dedup();
+        nonzero.retain(|place| !signs.contains(place));
+        product
+    }
+
     /// Every number in it.
     pub fn places(&self) -> impl Iterator<Item = Place> {
         self.signs.iter().chain(&self.nonzero).copied()

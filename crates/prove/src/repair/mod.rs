@@ -1,12 +1,14 @@
 //! Guarded kernels: a kernel's own program that says hit, miss or ask, and whose hits and misses are proved to be right.
 
 mod answer;
+mod chain;
 mod fraction;
 mod margin;
 mod steps;
 mod text;
 
 pub use answer::Answer;
+pub use chain::Chain;
 pub use fraction::Literal;
 pub use margin::{Margin, Margins, Scale};
 pub use steps::{Axes, Pattern, Step};
