@@ -12,7 +12,8 @@
 //! ((1+u)^K - 1) times the sum of their sizes, u = 2^-24. Its sign is right beyond factor * sizes; the factor
 //! covers the rounding of the sizes too. It supposes rounding to nearest, and differences of points that are computed
 //! as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;
-//! SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. What
+//! SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. Where gates in a row
+//! want numbers to be positive, or to have the sign of another, the least of them decides: by one margin, at least each one's own. What
 //! overflows on the way to a decision is no finite number, and asks.
 //! An input may be a product of the caller's: Rust fuses no product into a sum.
 //!     det: K = 6, factor 3.632e-7
@@ -94,10 +95,10 @@ pub fn moller_trumbore_f32(o: [f32; 3], d: [f32; 3], a: [f32; 3], b: [f32; 3], c
     let size_ao_x = (ao_x).abs() + SLACK; let size_ao_y = (ao_y).abs() + SLACK; let size_ao_z = (ao_z).abs() + SLACK;
     let size_weight_of_b = size_ao_x * size_d_ac_x + size_ao_y * size_d_ac_y + size_ao_z * size_d_ac_z;
     let size_weight_of_c = size_d_0 * (size_ao_y * size_ab_z + size_ab_y * size_ao_z + SLACK) + size_d_1 * (size_ao_z * size_ab_x + size_ab_z * size_ao_x + SLACK) + size_d_2 * (size_ao_x * size_ab_y + size_ab_x * size_ao_y + SLACK);
-    if !(weight_of_a).is_finite() { return Answer::Ask; }
     let side = f32::from(sign_det);
     let margin = margin_of(size_det + (size_weight_of_b + size_weight_of_c), 7.208448e-7);
     let least = lesser(lesser(lesser(side * weight_of_b, side * n16), side * weight_of_c), side * weight_of_a);
+    if !(weight_of_a).is_finite() { return Answer::Ask; }
     if least < -margin { return Answer::Miss; }
     open |= !(least > margin);
     if open { return Answer::Ask; }

@@ -216,9 +216,6 @@ impl<'a> Code<'a> {
             count => format!("{stem}{count}"),
         });
         let [side, margin, least] = names;
-        if let Some(line) = dialect.unless_finite(&widest.join(" + ")) {
-            self.line(line);
-        }
         let side = self.side(chain, side, scope);
         let turned = |(is_negative, place): &(bool, Place)| {
             let sign = if *is_negative { "-" } else { "" };
@@ -232,6 +229,9 @@ impl<'a> Code<'a> {
         ];
         for (name, text) in definitions {
             self.line(dialect.definitions(&[(name.clone(), text)]));
+        }
+        if let Some(line) = dialect.unless_finite(&widest.join(" + ")) {
+            self.line(line);
         }
         let condition = self.sure_miss(chain.places(), format!("{least} < -{margin}"));
         self.line(dialect.early(&condition, "MISS"));
