@@ -268,7 +268,7 @@ fn rounded_as_ieee_754_it_is_the_kernel_of_hairline() {
 }
 
 #[test]
-fn a_guarded_kernel_has_no_wrong_answer_seen_and_with_half_of_its_margins_some() {
+fn a_guarded_kernel_has_no_wrong_answer_seen_and_with_an_eighth_of_its_margins_some() {
     let folder = scratch("permitted-guarded");
     let words = [
         "repair",
@@ -283,7 +283,7 @@ fn a_guarded_kernel_has_no_wrong_answer_seen_and_with_half_of_its_margins_some()
     let (text, _) = ends(&folder, &words, 0);
     let margin = "return factor * size";
     assert!(text.contains(margin));
-    let narrow = text.replace(margin, "return 0.5f * factor * size");
+    let narrow = text.replace(margin, "return 0.125f * factor * size");
     for (name, text) in [("whole", &text), ("narrow", &narrow)] {
         let header = folder.join(format!("{name}.h"));
         fs::write(&header, text).unwrap();
