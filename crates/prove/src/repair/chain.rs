@@ -7,6 +7,9 @@
 use super::{Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Operation, Place};
 
+/// A number, or its negative if true.
+type Number = (bool, Place);
+
 /// Gates in a row, and the numbers that they compare.
 pub struct Chain<'a> {
     /// The gates, each once.
@@ -14,7 +17,7 @@ pub struct Chain<'a> {
     /// The numbers whose signs turn the others, and must be sure; twice if that is all they must be.
     pub sides: Vec<Place>,
     /// The numbers that must be positive then; negative if true stands beside them.
-    pub numbers: Vec<(bool, Place)>,
+    pub numbers: Vec<Number>,
     /// Those of the numbers whose terms are not all among another's. The largest of their sizes is the size of all.
     pub widest: Vec<Place>,
     /// The largest of all factors.
@@ -71,7 +74,7 @@ impl Guarded {
     }
 
     /// True if numbers may share a margin: they have one unit, and none is made from an end, which has misses of its own.
-    fn are_alike(&self, numbers: &[(bool, Place)]) -> bool {
+    fn are_alike(&self, numbers: &[Number]) -> bool {
         let unit = self.unit(numbers[0].1);
         numbers.iter().all(|(_, place)| {
             let has_end = self.uses_end(*place, 0) || self.uses_end(*place, 1);
@@ -158,7 +161,7 @@ fn product([hits, misses]: &[Vec<Pattern>; 2]) -> Option<Literal> {
 
 /// The numbers that literals have in common, and the one that each has for itself, negative if true stands beside it: the
 /// last of a literal alone. None if they are not so alike.
-fn split(literals: &[Literal]) -> Option<(Vec<Place>, Vec<(bool, Place)>)> {
+fn split(literals: &[Literal]) -> Option<(Vec<Place>, Vec<Number>)> {
     let (first, others) = literals.split_first()?;
     let mut sides = first.signs.clone();
     if others.is_empty() {
