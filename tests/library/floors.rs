@@ -53,7 +53,7 @@ const ROOMS: [Room; 19] = [
     room("crates/rays/src", Some("rays"), 36_450),
     room("crates/expect/src", Some("expect"), 17_800),
     room("crates/vectors/src", Some("vectors"), 11_960),
-// With the names of numbers in a file of their own, and with one comparison for gates in a row (issue 64).
+    // With the names of numbers in a file of their own, and with one comparison for gates in a row (issue 64).
     room("crates/repair/src", Some("repair"), 18_110),
     // The parts that all commands share came out of src.
     room("crates/command/src", Some("command"), 12_100),
