@@ -164,7 +164,8 @@ fn product<R: Real>(what: What, scale: Scale, sample: &Sample<R>) -> R {
 pub struct Meanings<'a> {
     proof: &'a Proof,
     samples: Vec<OnceCell<Samples<'a>>>,
-    known: HashMap<Vec<Operation>, Option<Meaning>>,
+    /// By program; by its path too where its sign depends on that.
+    known: HashMap<(Option<usize>, Vec<Operation>), Option<Meaning>>,
 }
 
 impl<'a> Meanings<'a> {
@@ -180,30 +181,33 @@ impl<'a> Meanings<'a> {
     /// The meaning of a number, if it has one.
     pub fn of(&mut self, path: usize, place: Place) -> Option<Meaning> {
         let program = cone(&self.proof.paths[path].operations, place).operations;
+        let program = (Samples::has_sizes(&program).then_some(path), program);
         if let Some(known) = self.known.get(&program) {
             return *known;
         }
         let samples = self.samples[path].get_or_init(|| Samples::new(&self.proof.paths[path]));
-        let all = SCALES
-            .into_iter()
-            .flat_map(|scale| WHATS.map(|what| (what, scale)));
-        let found = all.into_iter().find(|(what, scale)| {
-            samples.may_be(place, |i| product(*what, *scale, &samples.values[i].1))
-                && samples.is_exactly(place, |sample| product(*what, *scale, sample))
-                // Of the scale alone it is the size that is compared.
-                && (*what == What::One
-                    || samples.is_up_to_one_sign(place, |sample| product(*what, *scale, sample)))
-        });
-        let meaning = found.map(|(what, scale)| {
-            let (values, sample) = &samples.values[0];
-            let is_minus = values[place as usize] * product(what, scale, sample) < 0.0;
-            Meaning {
-                what,
-                scale,
-                is_minus,
-            }
+        let meaning = SCALES.into_iter().find_map(|scale| {
+            let mut whats = WHATS.into_iter();
+            whats.find_map(|what| meaning(samples, place, what, scale))
         });
         self.known.insert(program, meaning);
         meaning
     }
+}
+
+/// The meaning of a number that is this product up to its sign.
+fn meaning(samples: &Samples<'_>, place: Place, what: What, scale: Scale) -> Option<Meaning> {
+    let is_this = samples.may_be(place, |i| product(what, scale, &samples.values[i].1))
+        && samples.is_exactly(place, |sample| product(what, scale, sample));
+    if !is_this {
+        return None;
+    }
+    let is_minus = samples.is_negative_of(place, |sample| product(what, scale, sample));
+    // A scale alone is compared as a size: which sign it has is not asked.
+    let is_minus = is_minus.or_else(|| (what == What::One).then_some(false))?;
+    Some(Meaning {
+        what,
+        scale,
+        is_minus,
+    })
 }

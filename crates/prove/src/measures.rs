@@ -165,13 +165,24 @@ impl<'a> Samples<'a> {
         (value.abs() - other(sample).abs()).is_zero()
     }
 
-    /// True if a number that is another one up to its sign at few inputs is it up to one sign wherever the path is taken. Of
-    /// two quotients of polynomials that is so. A size, as |x| or √(x·x), changes its sign beside x, and x + |x| is 2x or 0.
-    pub fn is_up_to_one_sign(&self, place: Place, other: impl Fn(&Sample<f64>) -> f64) -> bool {
-        let operations = cone(&self.path.operations, place).operations;
+    /// True if there is a size in a number: |x|, or a root, as of x·x. Then its sign beside another number depends on the path.
+    pub fn has_sizes(operations: &[Operation]) -> bool {
         let is_size = |it: &Operation| matches!(it, Operation::Abs(_) | Operation::Sqrt(_));
-        if !operations.iter().any(is_size) {
-            return true;
+        operations.iter().any(is_size)
+    }
+
+    /// A number that is another one up to its sign at few inputs: true if it is the negative of it wherever the path is taken,
+    /// false if it is the other itself; none if it is neither. Two quotients of polynomials are one or the other. A size, as
+    /// |x| or √(x·x), changes its sign beside x, and x + |x| is 2x or 0.
+    pub fn is_negative_of(
+        &self,
+        place: Place,
+        other: impl Fn(&Sample<f64>) -> f64,
+    ) -> Option<bool> {
+        let operations = cone(&self.path.operations, place).operations;
+        if !Samples::has_sizes(&operations) {
+            let (values, sample) = &self.values[0];
+            return Some(values[place as usize] * other(sample) < 0.0);
         }
         let mut ratios = Vec::new();
         for i in 0..DRAWN {
@@ -186,7 +197,13 @@ impl<'a> Samples<'a> {
         }
         let is_always = |sign: f64| ratios.iter().all(|ratio| (ratio - sign).abs() <= 1e-9);
         // A path that is hardly ever taken shows nothing.
-        ratios.len() == SIGNED && (is_always(1.0) || is_always(-1.0))
+        if ratios.len() < SIGNED {
+            return None;
+        }
+        if is_always(1.0) {
+            return Some(false);
+        }
+        is_always(-1.0).then_some(true)
     }
 
     /// True if a number is a barycentric coordinate, or 1 less one.

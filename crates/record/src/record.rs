@@ -38,18 +38,13 @@ pub struct Record<R = ResultPart> {
     pub study: Study,
     /// The findings.
     pub result: R,
-    /// SHA-256 of `result` as JSON without spaces, hexadecimal, as a file has it: a record that was changed since is
-    /// refused.
-    #[serde(default)]
+    /// SHA-256 of `result` as JSON without spaces, hexadecimal; a record that was changed since is refused.
     pub checksum: Option<String>,
     /// The data that `merge` needs; only in a part of an audit.
-    #[serde(default)]
     pub shard: Option<ShardPart>,
     /// How that compares with what was expected; only of `check`.
-    #[serde(default)]
     pub conformance: Option<Conformance>,
     /// The data for pictures; only where an audit was asked for them.
-    #[serde(default)]
     pub illustrations: Option<Illustrations>,
     /// The drawing of a mesh, for pages alone.
     #[cfg(feature = "studies")]

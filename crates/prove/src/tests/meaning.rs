@@ -16,6 +16,8 @@ enum Compares {
     Itself,
     /// |λ·D| + |λ·D|.
     Size,
+    /// The same, on a path for each sign of λ·D.
+    SizeOnTwoPaths,
     /// λ·D + |λ·D|, which is 2λ·D or 0.
     Ramp,
 }
@@ -56,9 +58,12 @@ impl Kernel for Sizes {
         let mut compared = volumes.each_ref().map(|x| x.clone() + x);
         let (edge, compares) = COMPARES.get();
         let size = volumes[edge].abs();
+        if compares == SizeOnTwoPaths {
+            let _ = volumes[edge].is_sign_negative();
+        }
         match compares {
             Itself => {}
-            Size => compared[edge] = size.clone() + &size,
+            Size | SizeOnTwoPaths => compared[edge] = size.clone() + &size,
             Ramp => compared[edge] = volumes[edge].clone() + &size,
         }
         sink.gate(0, Refuse::Below, [compared.each_ref()])?;
@@ -83,7 +88,7 @@ fn nothing_is_proved_of_a_kernel_that_compares_a_size() {
     for edge in 0..3 {
         let Verdicts { misses, hits, .. } = verdicts_of(edge, Itself);
         assert!(misses.is_ok() && hits.is_ok(), "{misses:?} {hits:?}");
-        for compares in [Size, Ramp] {
+        for compares in [Size, SizeOnTwoPaths, Ramp] {
             let Verdicts { misses, hits, .. } = verdicts_of(edge, compares);
             let is_silent = misses.is_err() && hits.is_err();
             assert!(is_silent, "{compares:?} at {edge}: {misses:?} {hits:?}");
