@@ -2,7 +2,7 @@
 //! all of them have in common. So the least of the numbers decides.
 //!
 //! A certificate has the gates one by one. Folding them leaves its proof as it is: a sign is looked at only where it is
-//! farther from zero than a margin that is at least the number's own.
+//! farther from zero than a margin that is at least what the number needs.
 
 use super::{Guarded, Literal, Pattern, Step};
 use crate::arith::recorded::{Operation, Place};
