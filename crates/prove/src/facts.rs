@@ -1,10 +1,13 @@
-//! The decisions of edge gates: which weights are large enough, by each way to be accepted.
+//! The decisions of gates: which numbers are large enough, by each way to be accepted.
 
 use super::Proof;
 use super::meaning::{Meaning, Meanings, Scale, What};
+use super::order::unsigned;
 use super::watertight::{Unsigned, signed};
 use crate::arith::recorded::{Comparison, Operation, Place};
+use crate::contract::Sides;
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
+use std::ops::Range;
 
 /// A number on one side of what a gate compares it with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -12,13 +15,13 @@ pub struct Fact {
     pub program: usize,
     pub what: What,
     pub scale: Scale,
-    /// True if it says that what times scale is large enough; false if that its negative is.
+    /// True if it says that what times scale is large enough; false if its negative is.
     pub is_plus: bool,
     pub is_strict: bool,
 }
 
-/// An edge gate: each way to be accepted, and for either sign of the scale the numbers of which one is too small where it
-/// refuses; none if it may refuse although all are large.
+/// A gate: each way to be accepted, and for either sign of N·d the numbers of which one is too small where it refuses; none if
+/// it may refuse although all are large.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Form {
     pub gate: usize,
@@ -35,7 +38,7 @@ pub struct Reader<'a, 'b> {
 }
 
 impl Reader<'_, '_> {
-    /// An edge gate, if all that it compares is known.
+    /// A gate, if all that it compares is known.
     pub fn form(&mut self, compared: &Compared) -> Option<Form> {
         let gate = compared.gate;
         let (ways, refuses) = match &compared.accepts {
@@ -89,14 +92,15 @@ impl Reader<'_, '_> {
     /// A number that is large enough.
     fn fact(&mut self, gate: usize, place: Place, is_strict: bool) -> Option<Fact> {
         let Unsigned { is_negative, place } = signed(self.path, place);
-        let program = *self.proof.programs.get(&(gate, self.index, place))?;
+        // The error of |x| is no larger than that of x.
+        let bare = unsigned(self.path, place);
+        let program = *self.proof.programs.get(&(gate, self.index, bare))?;
         let Meaning {
             what,
             scale,
             is_minus,
         } = self.meanings.of(self.index, place)?;
-        let is_weight = matches!(what, What::Weight(_) | What::Rest(_));
-        is_weight.then_some(Fact {
+        Some(Fact {
             program,
             what,
             scale,
@@ -132,6 +136,20 @@ impl Reader<'_, '_> {
     }
 }
 
+impl Form {
+    /// True if it compares nothing but barycentric coordinates.
+    pub fn is_of_weights(&self) -> bool {
+        self.facts()
+            .all(|fact| matches!(fact.what, What::Weight(_) | What::Rest(_)))
+    }
+
+    /// All that is known of numbers where it accepts or refuses.
+    pub fn facts(&self) -> impl Iterator<Item = &Fact> {
+        let refused = self.refuses.iter().flatten().flatten();
+        self.ways.iter().flatten().chain(refused)
+    }
+}
+
 impl Fact {
     fn negative(self) -> Fact {
         Fact {
@@ -140,8 +158,27 @@ impl Fact {
         }
     }
 
-    /// True if it says that λ is large, where the scale is positive, or negative.
+    /// True if the sign of the number depends on which side of the triangle the ray meets.
+    pub fn has_sign(&self) -> bool {
+        self.what != What::Size && self.scale.has_sign()
+    }
+
+    /// True if it says that λ is large, where the scale is positive, or negative; without a sign it is positive in both.
     pub fn is_side(&self, is_positive: bool) -> bool {
-        self.is_plus == is_positive
+        self.is_plus == (is_positive || !self.has_sign())
+    }
+}
+
+/// The sides on which hits are owed, as indices of what a gate [refuses](Form::refuses).
+pub fn wanted_sides(facts: impl Iterator<Item = Fact>, sides: Sides) -> Range<usize> {
+    let signed: Vec<Fact> = facts.filter(Fact::has_sign).collect();
+    let is_turned = signed
+        .iter()
+        .any(|fact| matches!(fact.scale, Scale::Over(_)));
+    match sides {
+        _ if signed.is_empty() => 0..1,
+        // Met from the front, N·d is negative.
+        Sides::Front if !is_turned => 1..2,
+        _ => 0..2,
     }
 }

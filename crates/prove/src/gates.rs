@@ -252,6 +252,19 @@ impl Proof {
         quantities.max_by_key(|quantity| quantity.error()).map(Ok)
     }
 
+    /// The bound of a program's error in a domain.
+    pub(super) fn error(&self, program: usize, domain: &Domain) -> Proven<f64> {
+        let is_of_program = |it: &&Quantity| it.program == program;
+        let mut quantities = self.quantities.iter().filter(is_of_program);
+        let in_domain = quantities.clone().find(|it| it.domain == *domain);
+        let quantity = in_domain.or(quantities.next());
+        let bound = &quantity.expect("each program has a quantity").bound;
+        match bound {
+            Ok(bound) => Ok(bound.error.to_f64()),
+            Err(why) => Err(format!("no bound: {why}")),
+        }
+    }
+
     /// The numbers that a gate compares.
     pub(super) fn of_gate(&self, gate: usize) -> impl Iterator<Item = &Quantity> {
         let quantities = self.quantities.iter();

@@ -25,6 +25,7 @@ mod mirrors;
 mod names;
 mod normal;
 mod order;
+mod others;
 mod permanent;
 mod quotient;
 pub mod repair;
@@ -54,6 +55,7 @@ pub use meaning::Scale;
 pub use measures::{Limit, Measures, Sample};
 pub use names::Names;
 pub use order::{is_at_most, is_impossible};
+pub use others::{End, Other, WrongDecisions};
 pub use permanent::{Relative, Roundings, relative};
 pub use run::run;
 pub use scene::{Scene, Shape};
@@ -62,8 +64,6 @@ pub use statement::{Published, Triangles, about_edges, above, below, statements,
 pub use summary::{
     Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
 };
-pub use verdict::{
-    Depth, Farthest, Other, USELESS, Verdicts, WrongDecisions, supposes_weights, verdicts,
-};
+pub use verdict::{Depth, Farthest, USELESS, Verdicts, supposes_weights, verdicts};
 pub use watertight::Symmetry;
 pub use witness::{Goal, Inputs, Search, Searched};

@@ -14,6 +14,8 @@ use std::collections::HashMap;
 pub enum What {
     /// Nothing but the scale.
     One,
+    /// Nothing but the size of the scale.
+    Size,
     /// The barycentric coordinate of a vertex.
     Weight(usize),
     /// 1 less that.
@@ -88,7 +90,7 @@ const SCALES: [Scale; 9] = {
 impl What {
     fn of<R: Real>(self, sample: &Sample<R>) -> R {
         match self {
-            What::One => R::one(),
+            What::One | What::Size => R::one(),
             What::Weight(vertex) => sample.weight(vertex),
             What::Rest(vertex) => R::one() - sample.weight(vertex),
             What::Time => sample.time(),
@@ -202,9 +204,17 @@ fn meaning(samples: &Samples<'_>, place: Place, what: What, scale: Scale) -> Opt
     if !is_this {
         return None;
     }
-    let is_minus = samples.is_negative_of(place, |sample| product(what, scale, sample));
-    // A scale alone is compared as a size: which sign it has is not asked.
-    let is_minus = is_minus.or_else(|| (what == What::One).then_some(false))?;
+    // Where |x| is compared, it is large on both sides of the triangle, whichever of them the path is for.
+    let size = |sample: &Sample<f64>| scale.of(sample).abs();
+    let is_size = what == What::One && samples.is_on_all_paths(place, size);
+    if is_size && scale.has_sign() {
+        return Some(Meaning {
+            what: What::Size,
+            scale,
+            is_minus: false,
+        });
+    }
+    let is_minus = samples.is_negative_of(place, |sample| product(what, scale, sample))?;
     Some(Meaning {
         what,
         scale,

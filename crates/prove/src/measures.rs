@@ -103,11 +103,16 @@ fn has_signs(path: &Path, inputs: &[f64; 17]) -> bool {
     })
 }
 
-/// Short numbers, so that exact arithmetic is fast. The triangle faces the ray as a path's signs say, if they do.
-fn inputs(path: &Path, i: u64) -> [f64; 17] {
+/// Short numbers, so that exact arithmetic is fast.
+fn drawn(i: u64) -> [f64; 17] {
     const ONE: i64 = 1 << 20;
     let mut draw = Draw::new("measures", 1, i);
-    let drawn = [(); 17].map(|()| draw.integer(-ONE, ONE) as f64 / ONE as f64);
+    [(); 17].map(|()| draw.integer(-ONE, ONE) as f64 / ONE as f64)
+}
+
+/// Drawn numbers; the triangle faces the ray as a path's signs say, if they do.
+fn inputs(path: &Path, i: u64) -> [f64; 17] {
+    let drawn = drawn(i);
     let mut turned = drawn;
     (9..12).for_each(|i| turned.swap(i, i + 3));
     if !has_signs(path, &drawn) && has_signs(path, &turned) {
@@ -115,6 +120,19 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
     } else {
         drawn
     }
+}
+
+/// A number over another one, at the first few of these inputs.
+fn ratios(
+    operations: &[Operation],
+    other: impl Fn(&Sample<f64>) -> f64,
+    inputs: impl Iterator<Item = [f64; 17]>,
+) -> Vec<f64> {
+    let ratio = |inputs: [f64; 17]| {
+        let value = values(operations, &inputs).pop().expect("its own value");
+        value / other(&Sample::of(&inputs))
+    };
+    inputs.map(ratio).take(SIGNED).collect()
 }
 
 impl<'a> Samples<'a> {
@@ -184,17 +202,9 @@ impl<'a> Samples<'a> {
             let (values, sample) = &self.values[0];
             return Some(values[place as usize] * other(sample) < 0.0);
         }
-        let mut ratios = Vec::new();
-        for i in 0..DRAWN {
-            let inputs = inputs(self.path, SAMPLES + 1 + i);
-            if has_signs(self.path, &inputs) {
-                let value = values(&operations, &inputs).pop().expect("its own value");
-                ratios.push(value / other(&Sample::of(&inputs)));
-            }
-            if ratios.len() == SIGNED {
-                break;
-            }
-        }
+        let drawn = (0..DRAWN).map(|i| inputs(self.path, SAMPLES + 1 + i));
+        let taken = drawn.filter(|inputs| has_signs(self.path, inputs));
+        let ratios = ratios(&operations, other, taken);
         let is_always = |sign: f64| ratios.iter().all(|ratio| (ratio - sign).abs() <= 1e-9);
         // A path that is hardly ever taken shows nothing.
         if ratios.len() < SIGNED {
@@ -204,6 +214,13 @@ impl<'a> Samples<'a> {
             return Some(false);
         }
         is_always(-1.0).then_some(true)
+    }
+
+    /// True if a number is another one, with its sign, whether the path is taken or not.
+    pub fn is_on_all_paths(&self, place: Place, other: impl Fn(&Sample<f64>) -> f64) -> bool {
+        let operations = cone(&self.path.operations, place).operations;
+        let ratios = ratios(&operations, other, (0..DRAWN).map(drawn));
+        ratios.iter().all(|ratio| (ratio - 1.0).abs() <= 1e-9)
     }
 
     /// True if a number is a barycentric coordinate, or 1 less one.

@@ -5,11 +5,12 @@
 //! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -max(β - e, 0)/σ. A height is no longer than the longest edge.
 
 use super::bound::Proven;
-use super::facts::{Fact, Form, Reader};
-use super::meaning::{Meaning, Meanings, Scale, What};
-use super::{Domain, Lemma, Proof, Quantity, Rule, Step, VariableOrigin};
+use super::facts::{Fact, Form, Reader, wanted_sides};
+use super::meaning::{Meanings, Scale, What};
+use super::others::{Other, Others};
+use super::{Domain, Lemma, Proof, Rule, Step, VariableOrigin};
 use crate::contract::Sides;
-use crate::kernel::{Acceptance, Compared, Entry, Role};
+use crate::kernel::{Compared, Entry, Role};
 use std::collections::{BTreeSet, HashSet};
 
 /// At a share of half a triangle's longest edge and more a bound says nothing.
@@ -42,28 +43,6 @@ pub struct Verdicts {
     pub scales: Vec<(Scale, f64)>,
 }
 
-/// A gate that is not about edges, and where it may decide wrongly.
-#[derive(Clone, Debug)]
-pub struct Other {
-    /// The gate.
-    pub gate: usize,
-    /// Where.
-    pub may: WrongDecisions,
-}
-
-/// Where a gate that is not about edges may decide wrongly.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum WrongDecisions {
-    /// It never refuses a hit of the domain.
-    Never,
-    /// It may refuse a hit where the size of a number of this name is below this.
-    Refuse(&'static str, f64),
-    /// It may refuse a hit whose t is nearer to an end than the first, and let one through that is farther beyond than the second.
-    Ends(f64, f64),
-    /// Nothing is known.
-    Unknown,
-}
-
 /// The edge gates of a path, and true if nothing but gates refuses there.
 type Forms = (Vec<Form>, bool);
 
@@ -76,7 +55,13 @@ pub fn verdicts(
     parts: &[Domain],
 ) -> Verdicts {
     let mut meanings = Meanings::new(proof);
-    let others = others(entry, proof, &mut meanings, epsilons, parts);
+    let others = Others {
+        entry,
+        proof,
+        epsilons,
+        parts,
+    }
+    .all(&mut meanings);
     let is_edge = |gate: usize| entry.info.gates[gate].role == Role::Edge;
     let mut forms: HashSet<Forms> = HashSet::new();
     for (index, path) in proof.paths.iter().enumerate() {
@@ -93,7 +78,7 @@ pub fn verdicts(
                 path,
                 meanings: &mut meanings,
             };
-            let form = reader.form(compared);
+            let form = reader.form(compared).filter(Form::is_of_weights);
             form.ok_or(format!("what gate '{name}' compares is not read"))
         };
         match gates.map(form).collect::<Proven<Vec<Form>>>() {
@@ -216,7 +201,7 @@ const WIDE: f64 = 1.0 + 1.0 / 512.0;
 impl Bounds<'_> {
     /// The error of a number in a proof over the least size of its scale.
     fn share(&self, proof: &Proof, fact: &Fact) -> Proven<f64> {
-        let error = error(proof, fact.program, self.domain)?;
+        let error = proof.error(fact.program, self.domain)?;
         Ok(error / fact.scale.least(self.domain))
     }
 
@@ -230,16 +215,8 @@ impl Bounds<'_> {
             return Err("something refuses that is no gate".to_owned());
         }
         let facts = || forms.iter().flat_map(|form| form.ways.concat());
-        let has_sign = facts().any(|fact| fact.scale.has_sign());
-        let is_turned = facts().any(|fact| matches!(fact.scale, Scale::Over(_)));
-        let wanted = match sides {
-            _ if !has_sign => 0..1,
-            // Met from the front, N·d is negative.
-            Sides::Front if !is_turned => 1..2,
-            _ => 0..2,
-        };
         let mut most: f64 = 0.0;
-        for side in wanted {
+        for side in wanted_sides(facts(), sides) {
             for Form { gate, refuses, .. } in forms {
                 let refuses = refuses[side].as_ref();
                 for fact in refuses.ok_or("its edge gates may refuse any hit of one side")? {
@@ -287,7 +264,7 @@ impl Bounds<'_> {
                 is_negative && (sum > 0.0 || sum == 0.0 && (x.is_strict || y.is_strict))
             })
         });
-        let has_sign = way.iter().any(|(_, fact)| fact.scale.has_sign());
+        let has_sign = way.iter().any(|(_, fact)| fact.has_sign());
         if is_impossible || !has_sign && !side {
             return Ok([0.0; 2]);
         }
@@ -342,71 +319,4 @@ impl Bounds<'_> {
             weights = known(far, true)?.unwrap_or(weights);
         }
     }
-}
-
-/// The bound of a program's error in a domain.
-fn error(proof: &Proof, program: usize, domain: &Domain) -> Proven<f64> {
-    let mut of_program: Vec<&Quantity> = proof.quantities.iter().collect();
-    of_program.retain(|it| it.program == program);
-    let mut quantities = of_program.iter();
-    let own = quantities.find(|it| it.domain == *domain);
-    match &own.unwrap_or(&of_program[0]).bound {
-        Ok(bound) => Ok(bound.error.to_f64()),
-        Err(why) => Err(format!("no bound: {why}")),
-    }
-}
-
-/// The wrong decisions of gates that are not about edges.
-fn others(
-    entry: &Entry,
-    proof: &Proof,
-    meanings: &mut Meanings,
-    epsilons: &[f64],
-    parts: &[Domain],
-) -> Vec<Other> {
-    let mut may = |gate: usize| -> Option<WrongDecisions> {
-        let e = epsilons[gate];
-        let mut may = None;
-        let is_fixed =
-            |it: &Compared| it.gate == gate && matches!(it.accepts, Acceptance::Fixed(..));
-        let mut compared = proof.paths.iter().flat_map(|path| &path.compared);
-        if compared.any(is_fixed) {
-            return None;
-        }
-        for quantity in proof.of_gate(gate) {
-            let Meaning { what, scale, .. } = meanings.of(quantity.path, quantity.place)?;
-            for domain in parts {
-                let error = error(proof, quantity.program, domain).ok()?;
-                let least = scale.least(domain);
-                may = Some(match (what, may) {
-                    (What::One, Some(WrongDecisions::Refuse(name, x))) => {
-                        WrongDecisions::Refuse(name, x.max(e + error))
-                    }
-                    (What::One, before) if e + error < least => {
-                        before.unwrap_or(WrongDecisions::Never)
-                    }
-                    (What::One, _) => WrongDecisions::Refuse(scale.name(), e + error),
-                    (What::Weight(_) | What::Rest(_), _) => return None,
-                    (_, before) => {
-                        let [early, late] = [e + error, error - e].map(|x| x.max(0.0) / least);
-                        match before {
-                            Some(WrongDecisions::Ends(x, y)) => {
-                                WrongDecisions::Ends(x.max(early), y.max(late))
-                            }
-                            _ => WrongDecisions::Ends(early, late),
-                        }
-                    }
-                });
-            }
-        }
-        may
-    };
-    let mut others = Vec::new();
-    for (gate, info) in entry.info.gates.iter().enumerate() {
-        if info.role != Role::Edge {
-            let may = may(gate).unwrap_or(WrongDecisions::Unknown);
-            others.push(Other { gate, may });
-        }
-    }
-    others
 }

@@ -140,7 +140,10 @@ impl<'a> Code<'a> {
                 let opposite = self.conditions(&literal.negated()).join(" && ");
                 let or_else = format!("}} else {}", self.dialect.if_(&opposite));
                 self.block(self.dialect.if_(&holds), yes, &scope);
-                self.block(or_else, no, &scope);
+                // A number that only must not be zero is never known to be zero.
+                if opposite != holds {
+                    self.block(or_else, no, &scope);
+                }
                 self.block("} else {", &Step::Ask, &scope);
                 self.line("}");
             }

@@ -130,7 +130,7 @@ Why: a sum of products, each of which passes at most K roundings before the last
 covers the rounding of the sizes too. It supposes rounding to nearest, and differences of points that are computed
 as they stand here. K is that of the worst order of a sum, so sums of products may be fused and reordered;
 SLACK and the margin's least size cover underflow, subnormal numbers flushed or not. Where gates in a row
-want numbers to be positive, or to have the sign of another, the least of them decides: by one margin, at least each one's own. What
+want numbers to be positive, or to have the sign of another, the least of them decides: by one margin, large enough for each. What
 {range}
 {fusing}
 {margins}Proof: {command} --certificate FILE; hairline prove --check FILE",

@@ -77,6 +77,18 @@ impl Guarded {
     }
 }
 
+/// The decision of a chain of gates.
+enum Decision {
+    /// All gates accept.
+    Accept,
+    /// One refuses.
+    Miss,
+    /// A number is not finite.
+    Ask,
+    /// Rounding leaves it open: a gate behind may still refuse.
+    Open,
+}
+
 impl<F: Float> Run<'_, F> {
     fn answer(mut self, steps: &Step) -> Answer<F> {
         let mut step = steps;
@@ -102,9 +114,10 @@ impl<F: Float> Run<'_, F> {
                 Step::Gate(_, [hits, misses], next) => {
                     if let Some(chain) = self.guarded.chain(step) {
                         match self.decision(&chain) {
-                            Some(Answer::Hit(_)) => {}
-                            None => is_open = true,
-                            Some(answer) => return answer,
+                            Decision::Accept => {}
+                            Decision::Open => is_open = true,
+                            Decision::Miss => return Answer::Miss,
+                            Decision::Ask => return Answer::Ask,
                         }
                         step = chain.next;
                         continue;
@@ -130,12 +143,11 @@ impl<F: Float> Run<'_, F> {
         }
     }
 
-    /// A hit if a chain of gates accepts, another answer if it is the answer at once; none if the gates stay open.
-    fn decision(&self, chain: &Chain) -> Option<Answer<F>> {
+    fn decision(&self, chain: &Chain) -> Decision {
         let sum = |sum: F, place: &Place| sum + self.value(*place);
         let total = chain.widest.iter().fold(-F::zero(), sum);
         if !total.is_finite() {
-            return Some(Answer::Ask);
+            return Decision::Ask;
         }
         let signs = chain.sides.iter().map(|place| self.sign(*place));
         let side = F::from_f64(signs.product::<i8>().into());
@@ -144,15 +156,20 @@ impl<F: Float> Run<'_, F> {
             side * if *is_negative { -value } else { value }
         };
         let numbers = chain.numbers.iter().map(turned);
-        let least = numbers.reduce(|x, y| if x < y { x } else { y })?;
+        let least = numbers.reduce(|x, y| if x < y { x } else { y });
         let sizes = chain.widest.iter().map(|place| self.sizes[*place as usize]);
-        let size = sizes.reduce(|x, y| if x > y { x } else { y })?;
+        let size = sizes.reduce(|x, y| if x > y { x } else { y });
+        let (Some(least), Some(size)) = (least, size) else {
+            return Decision::Open;
+        };
         let margin = F::from_f64(chain.factor) * size + self.tiny;
         if least > margin {
-            return Some(Answer::Hit([None; 3]));
+            Decision::Accept
+        } else if least < -margin && !self.is_clamped(chain.places().into_iter()) {
+            Decision::Miss
+        } else {
+            Decision::Open
         }
-        let is_miss = least < -margin && !self.is_clamped(chain.places().into_iter());
-        is_miss.then_some(Answer::Miss)
     }
 
     fn rename(&mut self, mut axes: &Axes) {

@@ -12,7 +12,7 @@ type Number = (bool, Place);
 
 /// Gates in a row, and the numbers that they compare.
 pub struct Chain<'a> {
-    /// The gates, each once.
+    /// The gates, in their order. One that compares several numbers in a row is there once.
     pub gates: Vec<usize>,
     /// The numbers whose signs turn the others, and must be sure; twice if that is all they must be.
     pub sides: Vec<Place>,

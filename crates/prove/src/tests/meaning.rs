@@ -1,4 +1,5 @@
-//! Kernels that compare sizes of barycentric coordinates, of which nothing follows on which side of an edge the line passes.
+//! Kernels that compare sizes of barycentric coordinates, or their negatives, of which nothing follows on which side of an edge
+//! the line passes.
 
 use crate::arith::{Real, Vector};
 use crate::case::{Ray, Triangle};
@@ -20,6 +21,8 @@ enum Compares {
     SizeOnTwoPaths,
     /// λ·D + |λ·D|, which is 2λ·D or 0.
     Ramp,
+    /// -λ, which no hit passes.
+    NegativeWeight,
 }
 use Compares::*;
 
@@ -65,6 +68,10 @@ impl Kernel for Sizes {
             Itself => {}
             Size | SizeOnTwoPaths => compared[edge] = size.clone() + &size,
             Ramp => compared[edge] = volumes[edge].clone() + &size,
+            NegativeWeight => {
+                let all = volumes[0].clone() + &volumes[1] + &volumes[2];
+                compared[edge] = V::Real::zero() - &(volumes[edge].clone() / &all);
+            }
         }
         sink.gate(0, Refuse::Below, [compared.each_ref()])?;
         Some(Hit {
@@ -84,11 +91,11 @@ fn verdicts_of(edge: usize, compares: Compares) -> Verdicts {
 }
 
 #[test]
-fn nothing_is_proved_of_a_kernel_that_compares_a_size() {
+fn nothing_is_proved_of_a_kernel_that_compares_a_size_or_a_negative() {
     for edge in 0..3 {
         let Verdicts { misses, hits, .. } = verdicts_of(edge, Itself);
         assert!(misses.is_ok() && hits.is_ok(), "{misses:?} {hits:?}");
-        for compares in [Size, SizeOnTwoPaths, Ramp] {
+        for compares in [Size, SizeOnTwoPaths, Ramp, NegativeWeight] {
             let Verdicts { misses, hits, .. } = verdicts_of(edge, compares);
             let is_silent = misses.is_err() && hits.is_err();
             assert!(is_silent, "{compares:?} at {edge}: {misses:?} {hits:?}");

@@ -3,6 +3,7 @@ mod gates;
 mod meaning;
 mod measures;
 mod mirrors;
+mod others;
 mod permanent;
 mod program;
 mod ratios;

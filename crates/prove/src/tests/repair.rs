@@ -51,7 +51,7 @@ fn a_margin_counts_no_fewer_roundings_than_the_permanent() {
 
 /// Each chain of a kernel as three counts: the signs that turn its numbers, the numbers, and the widest of these.
 #[test]
-fn numbers_of_one_unit_share_a_margin_that_is_at_least_each_ones_own() {
+fn numbers_of_one_unit_share_a_margin_that_suffices_for_each() {
     let folded = |name: &str| {
         let guarded = Guarded::new::<f32>(find(name).unwrap()).unwrap();
         let (mut step, mut found) = (&guarded.steps, Vec::new());

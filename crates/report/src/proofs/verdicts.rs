@@ -3,11 +3,10 @@
 use crate::arith::Float;
 use crate::audit::{self, shell_word};
 use crate::case::Case;
-use crate::contract::Extent;
-use crate::kernel::Role;
 use crate::page::{Cell, Row};
 use crate::prove::{
-    Depth, Judged, Scale, Searched, USELESS, Witness, WrongDecisions, above, below, case_of,
+    Depth, End, Judged, Other, Scale, Searched, USELESS, Witness, WrongDecisions, above, below,
+    case_of,
 };
 
 /// The verdicts at some epsilons.
@@ -102,20 +101,16 @@ impl VerdictPart {
             number: scale.name().to_owned(),
             at_least: *least,
         };
-        let other = |it: &crate::prove::Other| OtherPart {
-            gate: row.entry.info.gates[it.gate].name.to_owned(),
+        let other = |it: &Other| OtherPart {
+            gate: match (it.gate, it.may) {
+                (Some(gate), _) => row.entry.info.gates[gate].name.to_owned(),
+                (None, WrongDecisions::Missing(End::Far)) => "t_max".to_owned(),
+                (None, _) => "t".to_owned(),
+            },
             may: may(&it.may),
             is_never: it.may == WrongDecisions::Never,
         };
-        let mut others: Vec<OtherPart> = verdicts.others.iter().map(other).collect();
-        let looks_at_t = row.entry.info.gates.iter().any(|gate| gate.role == Role::T);
-        if row.contract.extent != Extent::Line && !looks_at_t {
-            others.push(OtherPart {
-                gate: "t".to_owned(),
-                may: "is missing: hits behind the ray's start are let through.".to_owned(),
-                is_never: false,
-            });
-        }
+        let others = verdicts.others.iter().map(other).collect();
         let mut part = VerdictPart {
             epsilons: row.epsilon_argument(),
             misses: depth(&verdicts.misses, &judged.known[0]),
@@ -229,7 +224,16 @@ fn may(may: &WrongDecisions) -> String {
             above(*early),
             above(*late)
         ),
-        WrongDecisions::Unknown => "may also refuse hits: what it compares is not read.".to_owned(),
+        WrongDecisions::Unknown => {
+            "may decide wrongly anywhere: what it compares, or with which sign, is not known."
+                .to_owned()
+        }
+        WrongDecisions::Missing(End::Start) => {
+            "is missing: hits behind the ray's start are let through.".to_owned()
+        }
+        WrongDecisions::Missing(End::Far) => {
+            "is missing: hits beyond the ray's end are let through.".to_owned()
+        }
     }
 }
 

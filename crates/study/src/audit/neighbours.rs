@@ -13,7 +13,6 @@ use std::rc::Rc;
 const MOST_KEPT: usize = 1 << 16;
 
 /// The triangles around a group, with its ray: as kernels get them.
-#[derive(Default)]
 pub(super) struct Neighbours<F: Scalar> {
     pub cases: Vec<Case<F>>,
     pub truths: Vec<Truth>,

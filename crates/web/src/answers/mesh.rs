@@ -71,6 +71,6 @@ pub fn mesh(asked: &Mesh, file: &[u8]) -> Result<MeshAnswer, String> {
     Ok(MeshAnswer {
         title,
         html,
-        record: record,
+        record,
     })
 }
