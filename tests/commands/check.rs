@@ -662,6 +662,22 @@ fn another_seed_conforms_where_triangles_of_one_ray_are_wrong_together() {
 }
 
 #[test]
+fn a_family_that_is_not_known_conforms_only_without_wrong_answers() {
+    let folder = scratch("check-other-family");
+    let arguments = ["check", "--quiet", "--count", "100", "--kernel"];
+    let check = |kernel_family: [&'static str; 2], more: &[&'static str], status| {
+        let [kernel, family] = kernel_family;
+        let row = [kernel, "--family", family];
+        ends(&folder, &[&arguments[..], &row[..], more].concat(), status).0
+    };
+    check(["woop-watertight", "interior"], &["--bless"], 0);
+    let out = check(["woop-watertight", "vertex-exact"], &[], 0);
+    assert!(out.starts_with("Conforms: no wrong answer"), "{out}");
+    let out = check(["moller-trumbore", "vertex-exact"], &[], 1);
+    assert!(out.starts_with("Worse: moller-trumbore"), "{out}");
+}
+
+#[test]
 fn reasons_are_kept_and_nothing_outside_the_plan_is_lost_by_blessing() {
     let folder = blessed("check-kept");
     edit(&folder, |text| {

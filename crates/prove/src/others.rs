@@ -57,7 +57,9 @@ pub(super) struct Others<'a> {
 /// All that a gate compares on a path.
 #[derive(PartialEq)]
 struct OnPath {
-    comparisons: Vec<ComparisonOfGate>,
+    comparisons: Vec<Form>,
+    /// The side that the path is surely for, true where the scale is positive: it has asked for the sign of this scale.
+    side: Option<(Scale, bool)>,
     /// True if it is a hit when every gate accepts.
     hits: bool,
 }
@@ -65,17 +67,9 @@ struct OnPath {
 impl OnPath {
     /// The ends that it looks at.
     fn ends(&self) -> impl Iterator<Item = End> {
-        let facts = self.comparisons.iter().flat_map(|it| it.form.facts());
+        let facts = self.comparisons.iter().flat_map(Form::facts);
         facts.filter_map(end_of)
     }
-}
-
-/// One of a gate's comparisons on a path.
-#[derive(PartialEq)]
-struct ComparisonOfGate {
-    form: Form,
-    /// The side that a path is surely for, true where the scale is positive: one that has asked for the sign of this scale.
-    side: Option<(Scale, bool)>,
 }
 
 impl<'a> Others<'a> {
@@ -134,13 +128,16 @@ impl<'a> Others<'a> {
                     path: &self.proof.paths[index],
                     meanings,
                 };
-                comparisons.push(ComparisonOfGate {
-                    form: reader.form(compared)?,
-                    side: self.side_of(index, meanings),
-                });
+                comparisons.push(reader.form(compared)?);
             }
+            let side = if comparisons.is_empty() {
+                None
+            } else {
+                self.side_of(index, meanings)
+            };
             let here = OnPath {
                 comparisons,
+                side,
                 hits: path.hits,
             };
             if !all.contains(&here) {
@@ -203,8 +200,11 @@ impl<'a> Others<'a> {
     fn may(&self, gate: usize, on_paths: &[OnPath]) -> Option<WrongDecisions> {
         let wanted = self.entry.info.contract.sides;
         let mut may = None;
-        for ComparisonOfGate { form, side } in on_paths.iter().flat_map(|path| &path.comparisons) {
-            for side in sides_of(form, *side, wanted) {
+        let comparisons = on_paths
+            .iter()
+            .flat_map(|path| path.comparisons.iter().map(|form| (form, path.side)));
+        for (form, side) in comparisons {
+            for side in sides_of(form, side, wanted) {
                 let refuses = form.refuses[side].as_ref()?;
                 if !bounds_ends(form, refuses, side == 0) {
                     return None;

@@ -114,16 +114,19 @@ impl Surface {
             |face: &Seen| face.is_before(view, wished) && (is_cut || face.meets_line(view, wished));
         let (lines, mut solid): (Vec<Seen>, Vec<Seen>) = faces.into_iter().partition(is_line);
         solid.sort_by(|a, b| a.depth(view).total_cmp(&b.depth(view)));
+        // Of a face beside the drawing nothing is left.
+        let drawn = lines.len() + solid.len();
+        let lines: String = lines.iter().map(|face| face.outline(view)).collect();
         Surface {
             elements: elements(view, &lines, &solid),
-            drawn: lines.len() + solid.len(),
+            drawn,
             seen,
             has_lines: !lines.is_empty(),
         }
     }
 }
 
-fn elements(view: &View, lines: &[Seen], solid: &[Seen]) -> String {
+fn elements(view: &View, lines: &str, solid: &[Seen]) -> String {
     let mut elements = String::from("<g class=\"faces\" transform=\"scale(.1)\">");
     for part in solid.chunks(PART) {
         let mut shades = [const { String::new() }; SHADES];
@@ -136,7 +139,6 @@ fn elements(view: &View, lines: &[Seen], solid: &[Seen]) -> String {
             }
         }
     }
-    let lines: String = lines.iter().map(|face| face.outline(view)).collect();
     if !lines.is_empty() {
         let _ = write!(elements, "<path class=\"lines\" d=\"{lines}\"/>");
     }

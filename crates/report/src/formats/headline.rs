@@ -29,10 +29,10 @@ fn conforming(conformance: &Conformance) -> String {
         .map(|found| found.found.count)
         .sum();
     match (conformance.method, known) {
+        (_, 0) if conformance.too_rare_to_tell == 0 => "Conforms: no wrong answer".to_owned(),
         (Method::Intervals, _) => {
             "Conforms: wrong answers are as frequent as known, within their intervals".to_owned()
         }
-        (Method::CaseByCase, 0) => "Conforms: no wrong answer".to_owned(),
         (Method::CaseByCase, known) => {
             let answers = number_of(known, "wrong answer", "wrong answers");
             format!("Conforms: {answers}, all known, and none gone")
