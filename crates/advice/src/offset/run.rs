@@ -311,22 +311,28 @@ pub fn least<F: Float>(hit: &HitPoint<F>, is_right: impl Fn([F; 3]) -> bool) -> 
             origin: hit.point,
         });
     }
-    let (mut low, mut high) = (F::zero(), largest(hit.point).ulp());
-    while !is_right(at(high)) {
-        (low, high) = (high, high + high);
-        if !high.is_finite() {
+    let mut wrong = F::zero();
+    let mut right = largest(hit.point).ulp();
+    while !is_right(at(right)) {
+        wrong = right;
+        right = right + right;
+        if !right.is_finite() {
             return None;
         }
     }
-    while let Some(middle) = ordered_midpoint(low, high) {
-        *(if is_right(at(middle)) {
-            &mut high
+    while let Some(middle) = ordered_midpoint(wrong, right) {
+        let origin = at(middle);
+        // Most of these steps are too small to move the start, and then it is known.
+        let is_known_right = origin == at(right);
+        let is_known_wrong = origin == at(wrong);
+        if is_known_right || !is_known_wrong && is_right(origin) {
+            right = middle;
         } else {
-            &mut low
-        }) = middle;
+            wrong = middle;
+        }
     }
     Some(Least {
-        distance: high,
-        origin: at(high),
+        distance: right,
+        origin: at(right),
     })
 }
