@@ -13,6 +13,8 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fact {
     pub program: usize,
+    /// The number itself, without signs: two with one exact value may have programs that round in other ways.
+    pub number: usize,
     pub what: What,
     pub scale: Scale,
     /// True if it says that what times scale is large enough; false if its negative is.
@@ -20,8 +22,8 @@ pub struct Fact {
     pub is_strict: bool,
 }
 
-/// A gate: each way to be accepted, and for either sign of N·d the numbers of which one is too small where it refuses; none if
-/// it may refuse although all are large.
+/// A gate, with each way to be accepted. If it refuses where N·d is positive, then one of the first numbers of `refuses` is below
+/// the epsilon; where N·d is negative, one of the second. Without numbers it may refuse whatever they are.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Form {
     pub gate: usize,
@@ -82,11 +84,15 @@ impl Reader<'_, '_> {
                 (ways, refuses)
             }
         };
-        Some(Form {
+        let mut form = Form {
             gate,
             ways,
             refuses,
-        })
+        };
+        if !are_of_one_sign(form.facts()) {
+            form.refuses = [None, None];
+        }
+        Some(form)
     }
 
     /// A number that is large enough.
@@ -96,12 +102,14 @@ impl Reader<'_, '_> {
         let bare = unsigned(self.path, place);
         let program = *self.proof.programs.get(&(gate, self.index, bare))?;
         let Meaning {
+            number,
             what,
             scale,
             is_minus,
         } = self.meanings.of(self.index, place)?;
         Some(Fact {
             program,
+            number,
             what,
             scale,
             is_plus: is_negative == is_minus,
@@ -163,10 +171,22 @@ impl Fact {
         self.what != What::Size && self.scale.has_sign()
     }
 
-    /// True if it says that λ is large, where the scale is positive, or negative; without a sign it is positive in both.
+    /// True if, where the scale is positive, or negative, it says that `what` itself is large, and not its negative. A scale
+    /// without a sign is positive in both.
     pub fn is_side(&self, is_positive: bool) -> bool {
         self.is_plus == (is_positive || !self.has_sign())
     }
+}
+
+/// True if the signs of all scales follow from one of them: that of N·d/d_k depends on d_k too.
+pub fn are_of_one_sign<'a>(facts: impl Iterator<Item = &'a Fact>) -> bool {
+    let axis = |fact: &Fact| match fact.scale {
+        Scale::Over(axis) => Some(axis),
+        _ => None,
+    };
+    let mut axes = facts.filter(|fact| fact.has_sign()).map(axis);
+    let first = axes.next();
+    axes.all(|axis| Some(axis) == first)
 }
 
 /// The sides on which hits are owed, as indices of what a gate [refuses](Form::refuses).

@@ -50,6 +50,8 @@ pub enum Scale {
 /// The exact value of a number: `what` times `scale`, or the negative of that.
 #[derive(Clone, Copy)]
 pub struct Meaning {
+    /// Which program it is of: the same one always rounds alike.
+    pub number: usize,
     pub what: What,
     pub scale: Scale,
     pub is_minus: bool,
@@ -129,7 +131,12 @@ impl Scale {
                 of.sine.to_f64(),
                 (of.area * of.sine).to_f64(),
             ),
-            None => (floor / (direction * 1.732_050_81), floor, floor),
+            None => {
+                // A coordinate of N is at most twice the square of an edge's, and |N| at most √3 times that.
+                let edge = domain.edge.to_f64();
+                let longest = 2.0 * 1.732_050_81 * edge * edge;
+                (floor / (direction * 1.732_050_81), floor / longest, floor)
+            }
         };
         match self {
             Scale::One => 1.0,
@@ -188,36 +195,39 @@ impl<'a> Meanings<'a> {
             return *known;
         }
         let samples = self.samples[path].get_or_init(|| Samples::new(&self.proof.paths[path]));
+        let number = self.known.len();
         let meaning = SCALES.into_iter().find_map(|scale| {
             let mut whats = WHATS.into_iter();
-            whats.find_map(|what| meaning(samples, place, what, scale))
+            let (what, is_minus) =
+                whats.find_map(|what| product_at(samples, place, what, scale))?;
+            Some(Meaning {
+                number,
+                what,
+                scale,
+                is_minus,
+            })
         });
         self.known.insert(program, meaning);
         meaning
     }
 }
 
-/// The meaning of a number that is this product up to its sign.
-fn meaning(samples: &Samples<'_>, place: Place, what: What, scale: Scale) -> Option<Meaning> {
+/// The number at a place as this product, and true if it is the negative of it; none if it is another number.
+fn product_at(
+    samples: &Samples<'_>,
+    place: Place,
+    what: What,
+    scale: Scale,
+) -> Option<(What, bool)> {
     let is_this = samples.may_be(place, |i| product(what, scale, &samples.values[i].1))
         && samples.is_exactly(place, |sample| product(what, scale, sample));
     if !is_this {
         return None;
     }
     // Where |x| is compared, it is large on both sides of the triangle, whichever of them the path is for.
-    let size = |sample: &Sample<f64>| scale.of(sample).abs();
-    let is_size = what == What::One && samples.is_on_all_paths(place, size);
-    if is_size && scale.has_sign() {
-        return Some(Meaning {
-            what: What::Size,
-            scale,
-            is_minus: false,
-        });
+    if what == What::One && scale.has_sign() && samples.is_size(place) {
+        return Some((What::Size, false));
     }
     let is_minus = samples.is_negative_of(place, |sample| product(what, scale, sample))?;
-    Some(Meaning {
-        what,
-        scale,
-        is_minus,
-    })
+    Some((what, is_minus))
 }

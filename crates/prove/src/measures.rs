@@ -2,13 +2,16 @@
 //! whatever order a program computes it.
 
 use super::order::largest_axes;
-use super::run::{cone, values};
+use super::order::unsigned;
+use super::run::{cone, parts, values};
+use super::watertight::signed;
 use super::{Dyadic, Scene};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Exact, Real, Triple, Vector};
 use crate::case::Draw;
 use crate::kernel::Path;
 use std::cell::OnceCell;
+use std::collections::HashMap;
 
 /// The measures of a scene's triangles and rays. In the names of numbers N = (b-a)×(c-a), N_k is its largest coordinate
 /// and N_i another one, d_k the largest coordinate of d, e an edge, p and q are vertices, and u stands for all three
@@ -89,10 +92,6 @@ pub struct Samples<'a> {
     axes: Vec<usize>,
 }
 
-/// How many inputs show the sign of a number that has sizes in it, and how many are drawn for them: not all take the path.
-const SIGNED: usize = 32;
-const DRAWN: u64 = 1024;
-
 /// True if the numbers whose signs a path asks for have these signs.
 fn has_signs(path: &Path, inputs: &[f64; 17]) -> bool {
     let values = values(&path.operations, inputs);
@@ -122,19 +121,6 @@ fn inputs(path: &Path, i: u64) -> [f64; 17] {
     }
 }
 
-/// A number over another one, at the first few of these inputs.
-fn ratios(
-    operations: &[Operation],
-    other: impl Fn(&Sample<f64>) -> f64,
-    inputs: impl Iterator<Item = [f64; 17]>,
-) -> Vec<f64> {
-    let ratio = |inputs: [f64; 17]| {
-        let value = values(operations, &inputs).pop().expect("its own value");
-        value / other(&Sample::of(&inputs))
-    };
-    inputs.map(ratio).take(SIGNED).collect()
-}
-
 impl<'a> Samples<'a> {
     pub fn new(path: &'a Path) -> Samples<'a> {
         let sample = |i: u64| {
@@ -155,6 +141,16 @@ impl<'a> Samples<'a> {
         samples
     }
 
+    /// The coordinates of N that the path compares: by them it has chosen an axis. They may be computed in another way than
+    /// the coordinate that it divides by.
+    pub fn compared_coordinates(&self) -> Vec<Place> {
+        let compared = self.path.decisions.iter().flat_map(|(it, _)| it.places());
+        let mut places: Vec<Place> = compared.map(|it| unsigned(self.path, it)).collect();
+        places.retain(|place| (0..3).any(|axis| self.is_of_normal(*place, axis)));
+        places.dedup();
+        places
+    }
+
     /// True if a number is a coordinate of N, up to its sign.
     pub fn is_of_normal(&self, place: Place, axis: usize) -> bool {
         self.may_be(place, |i| self.values[i].1.normal.at(axis))
@@ -170,14 +166,16 @@ impl<'a> Samples<'a> {
         })
     }
 
-    /// True if it is the other one up to its sign at exact inputs.
+    /// True if it is the other one up to its sign at exact inputs, and so wherever the path is taken.
     pub fn is_exactly(&self, place: Place, other: impl Fn(&Sample<Exact>) -> Exact) -> bool {
+        let Some(operations) = self.smooth(unsigned(self.path, place)) else {
+            return false;
+        };
         let (inputs, sample) = self.exact.get_or_init(|| {
             let inputs = inputs(self.path, SAMPLES).map(Exact::from_f64);
             let sample = Sample::of(&inputs);
             (inputs, sample)
         });
-        let operations = cone(&self.path.operations, place).operations;
         let value = values(&operations, inputs).pop();
         let value = value.expect("its own value");
         (value.abs() - other(sample).abs()).is_zero()
@@ -189,38 +187,74 @@ impl<'a> Samples<'a> {
         operations.iter().any(is_size)
     }
 
-    /// A number that is another one up to its sign at few inputs: true if it is the negative of it wherever the path is taken,
-    /// false if it is the other itself; none if it is neither. Two quotients of polynomials are one or the other. A size, as
-    /// |x| or √(x·x), changes its sign beside x, and x + |x| is 2x or 0.
+    /// True if a number is |x|, and x has no size in it.
+    pub fn is_size(&self, place: Place) -> bool {
+        match self.path.operations[place as usize] {
+            Operation::Abs(inner) => self.smooth(inner).is_some(),
+            _ => false,
+        }
+    }
+
+    /// A number that is another one up to its sign: true if it is the negative of it, false if it is the other itself; none if
+    /// that is not known everywhere on the path.
     pub fn is_negative_of(
         &self,
         place: Place,
         other: impl Fn(&Sample<f64>) -> f64,
     ) -> Option<bool> {
-        let operations = cone(&self.path.operations, place).operations;
-        if !Samples::has_sizes(&operations) {
-            let (values, sample) = &self.values[0];
-            return Some(values[place as usize] * other(sample) < 0.0);
-        }
-        let drawn = (0..DRAWN).map(|i| inputs(self.path, SAMPLES + 1 + i));
-        let taken = drawn.filter(|inputs| has_signs(self.path, inputs));
-        let ratios = ratios(&operations, other, taken);
-        let is_always = |sign: f64| ratios.iter().all(|ratio| (ratio - sign).abs() <= 1e-9);
-        // A path that is hardly ever taken shows nothing.
-        if ratios.len() < SIGNED {
-            return None;
-        }
-        if is_always(1.0) {
-            return Some(false);
-        }
-        is_always(-1.0).then_some(true)
+        let operations = self.smooth(place)?;
+        let (inputs, sample) = (inputs(self.path, 0), &self.values[0].1);
+        let value = values(&operations, &inputs).pop().expect("its own value");
+        Some(value * other(sample) < 0.0)
     }
 
-    /// True if a number is another one, with its sign, whether the path is taken or not.
-    pub fn is_on_all_paths(&self, place: Place, other: impl Fn(&Sample<f64>) -> f64) -> bool {
+    /// The program of a number, with x or -x in place of each |x| where the path has asked for the sign of x. None if there is
+    /// another |x|, or a root of something else than N·N.
+    ///
+    /// Then it is a quotient of polynomials, or of their products with |N|. Two of these are equal everywhere if they are
+    /// at a few points. Of |x| a few points may show one side alone: |x+1| + |x-1| - 2 is 0 from -1 to 1.
+    fn smooth(&self, place: Place) -> Option<Vec<Operation>> {
         let operations = cone(&self.path.operations, place).operations;
-        let ratios = ratios(&operations, other, (0..DRAWN).map(drawn));
-        ratios.iter().all(|ratio| (ratio - 1.0).abs() <= 1e-9)
+        if !Samples::has_sizes(&operations) {
+            return Some(operations);
+        }
+        let mut smooth: Vec<Operation> = Vec::new();
+        // By place on the tape: where its number is among these.
+        let mut places: HashMap<Place, Place> = HashMap::new();
+        for part in parts(&self.path.operations, place) {
+            let operation = match self.path.operations[part as usize] {
+                Operation::Abs(inner) if self.is_negative(inner)? => Operation::Neg(inner),
+                Operation::Abs(inner) => {
+                    places.insert(part, places[&inner]);
+                    continue;
+                }
+                Operation::Sqrt(inner) if !self.is_square_of_normal(inner) => return None,
+                operation => operation,
+            };
+            places.insert(part, smooth.len() as Place);
+            smooth.push(operation.with(|operand| places[&operand]));
+        }
+        Some(cone(&smooth, places[&place]).operations)
+    }
+
+    /// True if the path takes a number to be negative; none if it has not asked for its sign.
+    fn is_negative(&self, place: Place) -> Option<bool> {
+        let asked = signed(self.path, place);
+        self.path.decisions.iter().find_map(|(comparison, answer)| {
+            let Comparison::Negative(of) = *comparison else {
+                return None;
+            };
+            let known = signed(self.path, of);
+            let is_turned = known.is_negative != asked.is_negative;
+            (known.place == asked.place).then_some(*answer != is_turned)
+        })
+    }
+
+    /// True if a number is N·N.
+    fn is_square_of_normal(&self, place: Place) -> bool {
+        let square = |normal: &Triple<f64>| normal.dot(normal);
+        self.may_be(place, |i| square(&self.values[i].1.normal))
+            && self.is_exactly(place, |sample| sample.normal.dot(&sample.normal))
     }
 
     /// True if a number is a barycentric coordinate, or 1 less one.

@@ -7,8 +7,8 @@ use super::facts::{Fact, Form, Reader, wanted_sides};
 use super::meaning::{Meaning, Meanings, Scale, What};
 use super::order::unsigned;
 use super::{Domain, Proof};
-use crate::arith::recorded::Comparison::{AtMost, Negative};
-use crate::arith::recorded::{Operation, Place};
+use crate::arith::recorded::Comparison::{AtMost, Negative, Zero};
+use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::contract::{Extent, Sides};
 use crate::kernel::{Compared, Entry, Path, Role};
 use std::ops::Range;
@@ -29,7 +29,7 @@ pub enum WrongDecisions {
     Never,
     /// It may refuse a hit where the size of a number of this name is below this.
     Refuse(&'static str, f64),
-    /// It may refuse a hit whose t is nearer to an end than the first, and let one through that is farther beyond than the second.
+    /// It may refuse a hit whose t is nearer to an end than the first, and accept one that is up to the second beyond it.
     Ends(f64, f64),
     /// Nothing is known.
     Unknown,
@@ -58,10 +58,12 @@ pub(super) struct Others<'a> {
 #[derive(PartialEq)]
 struct OnPath {
     comparisons: Vec<Form>,
-    /// The side that the path is surely for, true where the scale is positive: it has asked for the sign of this scale.
+    /// The scale whose sign the path has asked for, and true if it is positive there; none unless rounding surely keeps that sign.
     side: Option<(Scale, bool)>,
     /// True if it is a hit when every gate accepts.
     hits: bool,
+    /// True if the path has found that t_min is 0: then t itself tells how far it is from the start.
+    starts_at_zero: bool,
 }
 
 impl OnPath {
@@ -76,17 +78,16 @@ impl<'a> Others<'a> {
     /// All gates that are not about edges.
     pub fn all(&self, meanings: &mut Meanings<'a>) -> Vec<Other> {
         let mut others = Vec::new();
-        let mut ends: Option<Vec<End>> = Some(Vec::new());
+        let mut ends = Vec::new();
+        // What is not read, or refuses without a gate, may look at an end.
+        let mut is_all_read = self.proof.paths.iter().all(|path| path.hits);
         for (gate, info) in self.entry.info.gates.iter().enumerate() {
+            let on_paths = self.on_paths(gate, meanings);
+            is_all_read &= on_paths.is_some();
+            let found = on_paths.as_ref().map(|all| ends_in(all));
+            ends.extend(found.into_iter().flatten());
             if info.role == Role::Edge {
                 continue;
-            }
-            let on_paths = self.on_paths(gate, meanings);
-            if info.role == Role::T {
-                let found = on_paths.as_ref().map(|all| ends_in(all));
-                ends = ends
-                    .zip(found)
-                    .map(|(before, found)| [before, found].concat());
             }
             let may = on_paths.and_then(|on_paths| self.may(gate, &on_paths));
             others.push(Other {
@@ -95,12 +96,11 @@ impl<'a> Others<'a> {
             });
         }
         let wanted: &[End] = match self.entry.info.contract.extent {
+            _ if !is_all_read => &[],
             Extent::Line => &[],
             Extent::Ray => &[End::Start],
             Extent::Interval => &[End::Start, End::Far],
         };
-        // Where a gate of t is not read, nothing is known to be missing.
-        let ends = ends.unwrap_or(wanted.to_vec());
         for end in wanted.iter().filter(|end| !ends.contains(end)) {
             others.push(Other {
                 gate: None,
@@ -135,10 +135,15 @@ impl<'a> Others<'a> {
             } else {
                 self.side_of(index, meanings)
             };
+            let is_zero = |(comparison, answer): &(Comparison, bool)| match *comparison {
+                Zero(place) => *answer && path.operations[place as usize] == Operation::Input(15),
+                _ => false,
+            };
             let here = OnPath {
                 comparisons,
                 side,
                 hits: path.hits,
+                starts_at_zero: path.decisions.iter().any(is_zero),
             };
             if !all.contains(&here) {
                 all.push(here);
@@ -162,6 +167,7 @@ impl<'a> Others<'a> {
                 what,
                 scale,
                 is_minus,
+                ..
             } = meanings.of(index, place)?;
             let is_sure = |domain: &Domain| {
                 let error = self.proof.error(*program, domain);
@@ -172,7 +178,7 @@ impl<'a> Others<'a> {
         })
     }
 
-    /// Where a = b and a gate compares 0: its comparison on another path, of a - b, which is 0 here too.
+    /// On a path that has found a = b a gate may compare 0 in place of a - b: its comparison of a - b on another path.
     fn difference_of_equals(&self, path: &Path, compared: &Compared) -> Option<(usize, &Compared)> {
         let made = &path.decisions[..compared.decisions];
         let [before @ .., (AtMost(a, b), true), (AtMost(c, d), true)] = made else {
@@ -200,28 +206,77 @@ impl<'a> Others<'a> {
     fn may(&self, gate: usize, on_paths: &[OnPath]) -> Option<WrongDecisions> {
         let wanted = self.entry.info.contract.sides;
         let mut may = None;
-        let comparisons = on_paths
-            .iter()
-            .flat_map(|path| path.comparisons.iter().map(|form| (form, path.side)));
-        for (form, side) in comparisons {
-            for side in sides_of(form, side, wanted) {
-                let refuses = form.refuses[side].as_ref()?;
-                if !bounds_ends(form, refuses, side == 0) {
-                    return None;
-                }
-                for fact in refuses {
-                    for domain in self.parts {
-                        let here = self.of_fact(gate, fact, domain)?;
-                        may = Some(may.map_or(Some(here), |before| worse(before, here))?);
+        for path in on_paths {
+            for form in &path.comparisons {
+                for side in sides_of(form, path.side, wanted) {
+                    let refuses = form.refuses[side].as_ref()?;
+                    // How far beyond an end it accepts t depends on each way.
+                    let of_ends = form.ways.iter().flatten();
+                    let of_ends =
+                        of_ends.filter(|fact| end_of(fact).is_some() && fact.is_side(side == 0));
+                    for fact in refuses.iter().chain(of_ends) {
+                        for domain in self.parts {
+                            let here = self.of_fact(gate, fact, domain)?;
+                            may = Some(may.map_or(Some(here), |before| worse(before, here))?);
+                        }
                     }
                 }
             }
         }
-        // A path that looks at fewer ends lets everything through there.
-        let all = ends_in(on_paths);
+        // An end that it looks at at all has to bound t on each path.
+        let ends = ends_in(on_paths);
         let mut hits = on_paths.iter().filter(|path| path.hits);
-        let is_alike = hits.all(|path| all.iter().all(|end| path.ends().any(|it| it == *end)));
-        may.filter(|_| is_alike)
+        let are_bounded = hits.all(|path| {
+            ends.iter()
+                .all(|end| self.is_wanted(path, *end) && self.bounds(gate, path, *end))
+        });
+        may.filter(|_| are_bounded)
+    }
+
+    /// True if t may be compared with an end as a path does it: the contract has the end, and it is where the path takes it to be.
+    fn is_wanted(&self, path: &OnPath, end: End) -> bool {
+        let has = |what: What| {
+            let mut facts = path.comparisons.iter().flat_map(Form::facts);
+            facts.any(|fact| fact.what == what)
+        };
+        match (self.entry.info.contract.extent, end) {
+            (Extent::Line, _) | (Extent::Ray, End::Far) => false,
+            (Extent::Ray, End::Start) => !has(What::AfterMin),
+            (Extent::Interval, End::Start) => path.starts_at_zero || !has(What::Time),
+            (Extent::Interval, End::Far) => true,
+        }
+    }
+
+    /// True if a gate accepts no t far beyond an end on a path, on the sides that hits are owed on.
+    fn bounds(&self, gate: usize, path: &OnPath, end: End) -> bool {
+        let facts = path
+            .comparisons
+            .iter()
+            .flat_map(|form| form.facts().copied());
+        let mut sides = wanted_sides(facts, self.entry.info.contract.sides);
+        sides.all(|side| {
+            path.comparisons.iter().any(|form| {
+                let of_path = side_of_path(form, path.side);
+                of_path.is_some_and(|of_path| of_path != side)
+                    || self.bounds_in_all_ways(gate, form, end, side == 0)
+            })
+        })
+    }
+
+    /// True if all ways to be accepted want t to be on this side of an end, where N·d is positive, or negative.
+    fn bounds_in_all_ways(&self, gate: usize, form: &Form, end: End, side: bool) -> bool {
+        form.ways.iter().all(|way| {
+            // N·d itself has the other sign, and the epsilon does not reach it.
+            let is_impossible = |fact: &Fact| {
+                let is_far = |domain: &Domain| {
+                    let error = self.proof.error(fact.program, domain);
+                    error.is_ok_and(|error| error - self.epsilons[gate] < fact.scale.least(domain))
+                };
+                fact.what == What::One && !fact.is_side(side) && self.parts.iter().all(is_far)
+            };
+            way.iter()
+                .any(|fact| end_of(fact) == Some(end) && fact.is_side(side) || is_impossible(fact))
+        })
     }
 
     /// The wrong decisions where a gate takes a number to be too small.
@@ -241,19 +296,20 @@ impl<'a> Others<'a> {
     }
 }
 
+/// The side that a path is surely for, as an index of what a comparison [refuses](Form::refuses), if its numbers have that sign.
+fn side_of_path(form: &Form, side: Option<(Scale, bool)>) -> Option<usize> {
+    let (scale, is_positive) = side?;
+    let mut signed = form.facts().filter(|fact| fact.has_sign()).peekable();
+    let is_known = signed.peek().is_some() && signed.all(|fact| fact.scale == scale);
+    is_known.then_some(usize::from(!is_positive))
+}
+
 /// The sides on which a comparison meets hits that are owed, as indices of what it [refuses](Form::refuses).
 fn sides_of(form: &Form, side: Option<(Scale, bool)>, wanted: Sides) -> Range<usize> {
     let sides = wanted_sides(form.facts().copied(), wanted);
-    let signed: Vec<&Fact> = form.facts().filter(|fact| fact.has_sign()).collect();
-    match side {
-        Some((scale, is_positive))
-            if !signed.is_empty() && signed.iter().all(|fact| fact.scale == scale) =>
-        {
-            let side = usize::from(!is_positive);
-            let is_wanted = usize::from(sides.contains(&side));
-            side..side + is_wanted
-        }
-        _ => sides,
+    match side_of_path(form, side) {
+        Some(side) => side..side + usize::from(sides.contains(&side)),
+        None => sides,
     }
 }
 
@@ -271,21 +327,6 @@ fn ends_in(on_paths: &[OnPath]) -> Vec<End> {
     let mut ends = vec![End::Start, End::Far];
     ends.retain(|end| on_paths.iter().any(|path| path.ends().any(|it| it == *end)));
     ends
-}
-
-/// True if a gate that refuses t beyond some ends accepts it in no other way, where N·d is positive, or negative.
-fn bounds_ends(form: &Form, refuses: &[Fact], side: bool) -> bool {
-    form.ways.iter().all(|way| {
-        // N·d itself has the other sign.
-        let is_impossible = way
-            .iter()
-            .any(|fact| fact.what == What::One && !fact.is_side(side));
-        let has = |end: End| {
-            way.iter()
-                .any(|fact| end_of(fact) == Some(end) && fact.is_side(side))
-        };
-        is_impossible || refuses.iter().filter_map(end_of).all(has)
-    })
 }
 
 /// Both of two wrong decisions of a gate; none if they cannot be said in one.

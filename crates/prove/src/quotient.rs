@@ -165,12 +165,17 @@ impl Prover<'_> {
     /// An error if the divisor may be computed as zero.
     fn divisor(&mut self, place: Place, floor: Limit) -> Proven<Divisor> {
         let error = self.bound(place)?.error;
-        // Else another coordinate may be larger by more than 1 %: 2E is that share of the floor.
-        let least = error * Dyadic::new(200, 0);
-        if matches!(floor, Limit::Scene(LARGEST, size) if size < least) {
-            return Err(
-                "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned(),
-            );
+        if let Limit::Scene(LARGEST, size) = floor {
+            let mut most = error;
+            for compared in self.samples().compared_coordinates() {
+                most = most.max(self.bound(compared)?.error);
+            }
+            // Else another coordinate may be larger by more than 1 %: 2E is that share of the floor.
+            if size < most * Dyadic::new(200, 0) {
+                return Err(
+                    "rounding may hide which coordinate of (b-a)×(c-a) is the largest".to_owned(),
+                );
+            }
         }
         let floor = Big::from(floor.size());
         let least = &floor - Big::from(error);

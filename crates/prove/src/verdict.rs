@@ -5,7 +5,7 @@
 //! refuses only where λ < (e + β)/σ, and accepts only where λ ≥ -max(β - e, 0)/σ. A height is no longer than the longest edge.
 
 use super::bound::Proven;
-use super::facts::{Fact, Form, Reader, wanted_sides};
+use super::facts::{Fact, Form, Reader, are_of_one_sign, wanted_sides};
 use super::meaning::{Meanings, Scale, What};
 use super::others::{Other, Others};
 use super::{Domain, Lemma, Proof, Rule, Step, VariableOrigin};
@@ -257,8 +257,7 @@ impl Bounds<'_> {
     fn outside_on(&self, way: &[(usize, Fact)], side: bool) -> Proven<[f64; 2]> {
         let is_impossible = way.iter().any(|(gate, x)| {
             way.iter().any(|(other_gate, y)| {
-                let is_negative =
-                    (x.program, x.what) == (y.program, y.what) && x.is_plus != y.is_plus;
+                let is_negative = x.number == y.number && x.is_plus != y.is_plus;
                 // x >= e and -x >= e' leave no x if e + e' > 0.
                 let sum = self.epsilons[*gate] + self.epsilons[*other_gate];
                 is_negative && (sum > 0.0 || sum == 0.0 && (x.is_strict || y.is_strict))
@@ -267,6 +266,9 @@ impl Bounds<'_> {
         let has_sign = way.iter().any(|(_, fact)| fact.has_sign());
         if is_impossible || !has_sign && !side {
             return Ok([0.0; 2]);
+        }
+        if !are_of_one_sign(way.iter().map(|(_, fact)| fact)) {
+            return Err("its edge gates compare numbers whose signs differ".to_owned());
         }
         // Of each weight the least that is known, and its error: on this side, or on the other one.
         let known = |proof: &Proof, is_side: bool| -> Proven<Option<[(f64, f64); 3]>> {

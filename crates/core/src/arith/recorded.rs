@@ -140,6 +140,8 @@ pub struct Tape {
     pub operations: Vec<Operation>,
     /// The comparisons of the path, or of a test that is tried.
     pub decisions: Decisions,
+    /// A question that a tape gives one answer to, whatever the numbers are; the last one that was asked.
+    pub unanswered: Option<&'static str>,
     places: HashMap<Operation, Place>,
     arithmetic: Arithmetic,
 }
@@ -405,10 +407,16 @@ impl Real for Recorded {
         }
     }
     fn is_nan(&self) -> bool {
+        on_tape(|tape| tape.unanswered = Some("it asks whether a number is NaN"));
         false
     }
     fn is_finite(&self) -> bool {
+        on_tape(|tape| tape.unanswered = Some("it asks whether a number is finite"));
         true
+    }
+    fn just_below(&self) -> Self {
+        on_tape(|tape| tape.unanswered = Some("it asks for the number next to another one"));
+        self.clone()
     }
     fn infinity() -> Self {
         Recorded::at(Operation::INFINITY)

@@ -140,6 +140,9 @@ pub(super) fn paths<T: Target, K: Kernel<T>>(arithmetic: Arithmetic) -> Result<V
         if tape.operations.contains(&Operation::INFINITY) {
             return Err("it computes with infinity".to_owned());
         }
+        if let Some(question) = tape.unanswered {
+            return Err(question.to_owned());
+        }
         if sink.is_too_wide {
             return Err(format!("a gate compares in more than {MOST_OUTCOMES} ways"));
         }

@@ -33,6 +33,16 @@ enum Wants {
     NegativeTime,
     /// t, or else -t.
     EitherTime,
+    /// |N·d|, or else t.
+    SizeOrTime,
+    /// t·N·d and N·d, or else -N·d: it accepts any t on one side.
+    TimeWithSide,
+    /// t·N·d and N·d, or else the negatives of both.
+    TimeOnEachSide,
+    /// N·d and N·d over a coordinate of d, or else the negatives of both.
+    TwoScales,
+    /// |N·d|, as a number that is 3N·d or -N·d: by a sign that underflows.
+    ByUnderflow,
     /// t_max - t.
     BeforeMax,
     /// 0 where t = t_max, else t_max - t.
@@ -101,17 +111,33 @@ impl Kernel for OneGate {
             ChosenSize => volume.clone(),
             NegativeSize => negative(volume.abs()),
             TimeOnOneSide if volume.is_sign_negative() => return Some(hit()),
-            Time | TimeOnOneSide | EitherTime => time(),
+            Time | TimeOnOneSide | EitherTime | SizeOrTime => time(),
+            TimeWithSide | TimeOnEachSide => time() * &volume,
+            TwoScales => volume.clone() / &ray.direction.at(0),
+            ByUnderflow => {
+                let [x, size] = [ray.direction.at(0), volume.abs()];
+                let has_sign = (volume.clone() * &x * &x).is_sign_negative();
+                let turned = negative(volume.clone());
+                if has_sign {
+                    turned
+                } else {
+                    volume.clone() + &size - &turned
+                }
+            }
             NegativeTime => negative(time()),
             BeforeMax => ray.t_max.clone() - &time(),
             BeforeMaxOrZero => or(V::Real::zero(), &ray.t_max, &time()),
             BeforeMaxOrOne => or(V::Real::one(), &ray.t_max, &time()),
         };
-        if matches!(WANTS.get(), EitherVolume | EitherTime) {
-            let other = negative(wanted.clone());
-            sink.gate(0, Refuse::Below, [[&wanted], [&other]])?;
-        } else {
-            sink.gate(0, Refuse::Below, [[&wanted]])?;
+        let [other, back] = [&wanted, &volume].map(|x| negative(x.clone()));
+        match WANTS.get() {
+            EitherVolume | EitherTime => sink.gate(0, Refuse::Below, [[&wanted], [&other]])?,
+            SizeOrTime => sink.gate(0, Refuse::Below, [[&volume.abs()], [&wanted]])?,
+            TimeWithSide => sink.gate(0, Refuse::Below, [[&wanted, &volume], [&back, &back]])?,
+            TimeOnEachSide | TwoScales => {
+                sink.gate(0, Refuse::Below, [[&wanted, &volume], [&other, &back]])?;
+            }
+            _ => sink.gate(0, Refuse::Below, [[&wanted]])?,
         }
         Some(hit())
     }
@@ -162,6 +188,10 @@ fn a_gate_of_the_wrong_sign_is_not_said_to_refuse_no_hit() {
         (NegativeTime, Unknown, Unknown),
         (EitherTime, Unknown, Unknown),
         (BeforeMaxOrOne, Unknown, Unknown),
+        (SizeOrTime, Unknown, Unknown),
+        (TimeWithSide, Unknown, Unknown),
+        (TwoScales, Unknown, Unknown),
+        (ByUnderflow, Unknown, Unknown),
     ];
     for (wants, on_both, in_front) in all {
         assert_eq!(said(wants, both).0, on_both, "{wants:?} on both sides");
@@ -171,13 +201,13 @@ fn a_gate_of_the_wrong_sign_is_not_said_to_refuse_no_hit() {
 
 #[test]
 fn an_end_that_no_gate_looks_at_is_missing() {
-    use WrongDecisions::{Ends, Missing};
+    use WrongDecisions::{Ends, Missing, Unknown};
     let [both, front, interval] = &INFOS;
     let [start, far] = [End::Start, End::Far].map(Missing);
     let all = [
         (Time, both, vec![]),
         (Time, front, vec![]),
-        (Time, interval, vec![far]),
+        (TimeOnEachSide, both, vec![]),
         (BeforeMax, interval, vec![start]),
         (BeforeMaxOrZero, interval, vec![start]),
     ];
@@ -187,4 +217,7 @@ fn an_end_that_no_gate_looks_at_is_missing() {
         assert_eq!(found, missing, "{wants:?}");
     }
     assert_eq!(said(Size, interval).1, [start, far]);
+    // From t_min on t itself says nothing, and a ray has no t_max.
+    assert_eq!(said(Time, interval), (Unknown, vec![far]));
+    assert_eq!(said(BeforeMax, both), (Unknown, vec![start]));
 }

@@ -220,7 +220,7 @@ fn may(may: &WrongDecisions) -> String {
             )
         }
         WrongDecisions::Ends(early, late) => format!(
-            "may also refuse hits whose t is nearer to an end than {}, and let through what is {} beyond.",
+            "may also refuse hits whose t is nearer to an end than {}, and let through what is up to {} beyond.",
             above(*early),
             above(*late)
         ),
