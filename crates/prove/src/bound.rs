@@ -3,9 +3,10 @@
 
 use super::dyadic::{Big, round_up};
 use super::formula::{DIGITS, Formula, Maximum, VariableOrigin};
-use super::measures::{Limit, Samples};
+use super::measures::Limit;
 use super::order::{is_at_most, unsigned};
 use super::run::parts;
+use super::samples::Samples;
 use super::{Domain, Dyadic, Format};
 use crate::arith::recorded::{Operation, Place};
 use crate::kernel::Path;

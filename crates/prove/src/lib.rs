@@ -30,6 +30,7 @@ mod permanent;
 mod quotient;
 pub mod repair;
 mod run;
+mod samples;
 mod scene;
 mod sizes;
 mod starts;

@@ -1,8 +1,9 @@
 //! The exact number that a gate compares, in the words of a user: a barycentric coordinate or t, times something that
 //! depends on the kernel. Like the numbers of a scene it is known by its value, in whatever order a program computes it.
 
-use super::measures::{Sample, Samples};
+use super::measures::Sample;
 use super::run::cone;
+use super::samples::Samples;
 use super::{Domain, Proof};
 use crate::arith::recorded::{Operation, Place};
 use crate::arith::{Real, Vector};

@@ -2,8 +2,9 @@
 
 use super::depth::Judge;
 use super::gates::Quantity;
-use super::measures::{Angle, Sample, Samples};
+use super::measures::{Angle, Sample};
 use super::run::{Cone, cone, run};
+use super::samples::Samples;
 use super::{Domain, Dyadic, Leaf, Proof, Rule, VariableOrigin};
 use crate::arith::recorded::{Comparison, Operation, Place};
 use crate::arith::{Bounded, Exact, Float, Real};
