@@ -119,7 +119,13 @@ fn double_double(determinant: Determinant, case: &Case<f64>) -> Option<Ordering>
         return None;
     }
     let [first, p, q, base] = rows;
-    let difference = |x: FloatPoint| [0, 1, 2].map(|i| two_sum(x[i], -base[i]));
+    let difference = |x: FloatPoint| {
+        [
+            two_sum(x[0], -base[0]),
+            two_sum(x[1], -base[1]),
+            two_sum(x[2], -base[2]),
+        ]
+    };
     let (p, q) = (difference(p), difference(q));
     let first = match determinant {
         Determinant::T => difference(first),

@@ -32,7 +32,11 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
     let ca = cross::<W>(c, a);
     let ab = cross::<W>(a, b);
     // (b-a)×(c-a) is the sum of all three. The sum of the first two, (B-A)×C, is no larger, so nothing overflows.
-    let normal = [0, 1, 2].map(|axis| bc[axis] + ca[axis] + ab[axis]);
+    let normal = [
+        bc[0] + ca[0] + ab[0],
+        bc[1] + ca[1] + ab[1],
+        bc[2] + ca[2] + ab[2],
+    ];
     let capital_d = wide_dot::<W>(direction, normal);
     let capital_t = wide_dot::<W>(a, bc);
     let interval = RayInterval::new(case, p - q);
@@ -52,7 +56,11 @@ pub(super) fn decide<W: Width>(case: &Case<f64>) -> Option<Truth> {
     let minus_w = capital_d - minus_u - minus_v;
     let signs = DecidingSigns {
         d: capital_d.sign(),
-        weights: [minus_u, minus_v, minus_w].map(|negated| negated.sign().reverse()),
+        weights: [
+            minus_u.sign().reverse(),
+            minus_v.sign().reverse(),
+            minus_w.sign().reverse(),
+        ],
         t: capital_t.sign(),
         from_min: interval.compare_start(&capital_t, &capital_d),
         from_max: interval.compare_end(&capital_t, &capital_d),

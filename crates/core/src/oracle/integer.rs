@@ -1,5 +1,6 @@
 //! Integer vectors and intervals, which the integer layers share.
 
+use super::fixed::{I192, I256};
 use crate::arith::decompose;
 use crate::case::Case;
 use num_bigint::BigInt;
@@ -7,11 +8,18 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// An exact integer of some width.
-pub trait ExactInteger {
+pub trait ExactInteger: Clone + Default + Ord {
     /// The same number as an integer of any size.
     fn big(&self) -> BigInt;
-    /// The order of the number and zero.
-    fn sign(&self) -> Ordering;
+
+    /// The same number in 256 bits; none if it may have more than 191.
+    fn fixed(&self) -> Option<I256>;
+
+    /// The order of the number and zero, which is the default of every integer.
+    #[inline(always)]
+    fn sign(&self) -> Ordering {
+        self.cmp(&Self::default())
+    }
 
     /// True if it is zero.
     #[inline(always)]
@@ -20,22 +28,48 @@ pub trait ExactInteger {
     }
 }
 
-// The default of every integer is zero.
-impl<I: Clone + Default + Ord + Into<BigInt>> ExactInteger for I {
+impl ExactInteger for i64 {
     fn big(&self) -> BigInt {
-        self.clone().into()
+        BigInt::from(*self)
     }
     #[inline(always)]
-    fn sign(&self) -> Ordering {
-        self.cmp(&I::default())
+    fn fixed(&self) -> Option<I256> {
+        Some(I256::from(i128::from(*self)))
+    }
+}
+
+impl ExactInteger for i128 {
+    fn big(&self) -> BigInt {
+        BigInt::from(*self)
+    }
+    #[inline(always)]
+    fn fixed(&self) -> Option<I256> {
+        Some(I256::from(*self))
+    }
+}
+
+impl ExactInteger for I192 {
+    fn big(&self) -> BigInt {
+        BigInt::from(*self)
+    }
+    #[inline(always)]
+    fn fixed(&self) -> Option<I256> {
+        Some(I256::from(*self))
+    }
+}
+
+impl ExactInteger for BigInt {
+    fn big(&self) -> BigInt {
+        self.clone()
+    }
+    fn fixed(&self) -> Option<I256> {
+        None
     }
 }
 
 /// An [`ExactInteger`] that computes: `i128` or `BigInt`.
 pub trait Integer:
     ExactInteger
-    + Clone
-    + Ord
     + Neg<Output = Self>
     + for<'a> Add<&'a Self, Output = Self>
     + for<'a> Sub<&'a Self, Output = Self>
@@ -53,10 +87,9 @@ pub trait Integer:
 
 impl Integer for i128 {
     fn compare_products(a: &i128, b: &i128, c: &i128, d: &i128) -> Ordering {
-        let left = a.checked_mul(*b);
-        let right = c.checked_mul(*d);
-        if let (Some(left), Some(right)) = (left, right) {
-            return left.cmp(&right);
+        let sizes = [a, b, c, d].map(|factor| factor.unsigned_abs());
+        if sizes.iter().all(|size| *size < I256::MOST_OF_A_FACTOR) {
+            return I256::product(*a, *b).cmp(&I256::product(*c, *d));
         }
         BigInt::compare_products(&a.big(), &b.big(), &c.big(), &d.big())
     }
@@ -116,14 +149,6 @@ impl RayInterval {
     /// The sign of t - end.
     #[inline]
     fn compare<I: ExactInteger>(&self, numerator: &I, denominator: &I, end: f64) -> Ordering {
-        let is_negative = denominator.sign() == Ordering::Less;
-        // Multiplying by a negative denominator turned the order.
-        let divided = |order: Ordering| {
-            if is_negative { order.reverse() } else { order }
-        };
-        if end == 0.0 {
-            return divided(numerator.sign());
-        }
         if end.is_infinite() {
             return if end > 0.0 {
                 Ordering::Less
@@ -131,17 +156,35 @@ impl RayInterval {
                 Ordering::Greater
             };
         }
-        let (digits, exponent) = decompose(end);
-        let mut left = numerator.big();
-        let mut right = denominator.big() * digits;
-        let shift = self.exponent - exponent;
-        if shift >= 0 {
-            left <<= shift
-        } else {
-            right <<= -shift
+        let sign = numerator.sign() as i8 * denominator.sign() as i8;
+        let end_sign = i8::from(end > 0.0) - i8::from(end < 0.0);
+        if sign != end_sign || end_sign == 0 {
+            return sign.cmp(&end_sign);
         }
-        divided(left.cmp(&right))
+        // Of one sign: the sizes decide, the other way round below zero.
+        let (digits, exponent) = decompose(end);
+        let digits = digits.unsigned_abs();
+        let places = self.exponent - exponent;
+        let by_size = match (numerator.fixed(), denominator.fixed()) {
+            (Some(numerator), Some(denominator)) => {
+                let scaled = denominator.size().times(digits);
+                numerator.size().compare_scaled(places, scaled)
+            }
+            _ => compare_big([numerator.big(), denominator.big() * digits], places),
+        };
+        (by_size as i8 * sign).cmp(&0)
     }
+}
+
+/// The order of the sizes of two numbers, the first of them times 2^places.
+fn compare_big(numbers: [BigInt; 2], places: i64) -> Ordering {
+    let [mut left, mut right] = numbers.map(|number| number.into_parts().1);
+    if places >= 0 {
+        left <<= places
+    } else {
+        right <<= -places
+    }
+    left.cmp(&right)
 }
 
 /// Points as integers on a common grid, and the grid's exponent.

@@ -17,6 +17,7 @@ mod contact;
 mod coplanar;
 mod determinant;
 mod filter;
+mod fixed;
 mod grid;
 pub mod integer;
 mod monomials;

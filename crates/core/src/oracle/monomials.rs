@@ -24,37 +24,54 @@ pub(super) fn compare_with_end(end: f64, case: &Case<f64>) -> Ordering {
 
 /// The sign of a sum of determinants, each times a number. Multiplied out it has at most N products.
 fn sign_of<const N: usize>(sum: &[(Determinant, f64)], case: &Case<f64>) -> Ordering {
-    let zero = Extended::of(0.0);
-    let (floats, count) = multiplied_out::<_, N>(sum, case, zero, Extended::product);
+    let (floats, count) = in_extended::<N>(sum, case);
     in_floats(&floats[..count]).unwrap_or_else(|| exactly::<N>(sum, case))
+}
+
+/// The products of a sum in floats, and how many they are.
+#[inline(always)]
+fn in_extended<const N: usize>(
+    sum: &[(Determinant, f64)],
+    case: &Case<f64>,
+) -> ([Extended; N], usize) {
+    multiplied_out(
+        sum,
+        case,
+        Extended::of(0.0),
+        Extended::of,
+        Extended::product,
+    )
 }
 
 /// The same sign, exactly, whatever cancels.
 #[inline(never)]
 fn exactly<const N: usize>(sum: &[(Determinant, f64)], case: &Case<f64>) -> Ordering {
-    let (products, count) =
-        multiplied_out::<_, N>(sum, case, ExactProduct::ZERO, |factors| ExactProduct {
-            // Digits times 2^52 are whole numbers of 53 bits. So each product is 2^208 times too large, all alike:
-            // the sign stays.
-            factors: factors.map(|factor| (factor.digits * (1u64 << 52) as f64) as i64),
-            exponent: factors.iter().map(|factor| factor.exponent).sum(),
-        });
+    let (products, count) = multiplied_out::<_, _, N>(
+        sum,
+        case,
+        ExactProduct::ZERO,
+        WholeNumber::of,
+        WholeNumber::product,
+    );
     sign_of_sum(&products[..count])
 }
 
-/// The products of a sum, and how many they are.
+/// The products of a sum, and how many they are. `of` makes a factor of a number. Arrays of arrays do not go through `map`
+/// without calls, so they are written out.
 #[inline(always)]
-fn multiplied_out<P: Copy, const N: usize>(
+fn multiplied_out<X: Copy, P: Copy, const N: usize>(
     sum: &[(Determinant, f64)],
     case: &Case<f64>,
     zero: P,
-    product: impl Fn([Extended; 4]) -> P,
+    of: impl Fn(f64) -> X,
+    product: impl Fn([X; 4]) -> P,
 ) -> ([P; N], usize) {
     let (mut products, mut count) = ([zero; N], 0);
+    let vector = |[x, y, z]: [f64; 3]| [of(x), of(y), of(z)];
     for (determinant, by) in sum {
-        let rows = rows(*determinant, case.vectors());
-        let [first, p, q, base] = rows.map(|v| v.map(Extended::of));
-        let [by, minus] = [*by, -by].map(Extended::of);
+        let [first, p, q, base] = rows(*determinant, case.vectors());
+        let [first, p, q, base] = [vector(first), vector(p), vector(q), vector(base)];
+        let (by, minus) = (of(*by), of(-by));
         // (p-base)×(q-base) = p×q + q×base + base×p. Where base is subtracted from the first vector too,
         // base·(p×q) is subtracted: the other two are orthogonal to base.
         let triples = [
@@ -77,6 +94,33 @@ fn multiplied_out<P: Copy, const N: usize>(
         }
     }
     (products, count)
+}
+
+/// A float as a whole number of 53 bits, the digits of its [`Extended`] times 2^52. So a product of four is 2^208 times too
+/// large, all alike: the sign of a sum stays.
+#[derive(Clone, Copy)]
+struct WholeNumber {
+    digits: i64,
+    exponent: i32,
+}
+
+impl WholeNumber {
+    #[inline(always)]
+    fn of(x: f64) -> WholeNumber {
+        let Extended { digits, exponent } = Extended::of(x);
+        WholeNumber {
+            digits: (digits * (1u64 << 52) as f64) as i64,
+            exponent,
+        }
+    }
+
+    #[inline(always)]
+    fn product([x, y, z, w]: [WholeNumber; 4]) -> ExactProduct {
+        ExactProduct {
+            factors: [x.digits, y.digits, z.digits, w.digits],
+            exponent: x.exponent + y.exponent + z.exponent + w.exponent,
+        }
+    }
 }
 
 /// A float: digits in ±[1, 2) times 2^exponent, or zero with [`NO_EXPONENT`]. A product's digits are in ±[1, 16].
@@ -170,8 +214,7 @@ mod tests {
     use num_traits::ToPrimitive;
 
     fn floats<const N: usize>(sum: &[(Determinant, f64)], case: &Case<f64>) -> Option<Ordering> {
-        let product = Extended::product;
-        let (products, count) = multiplied_out::<_, N>(sum, case, Extended::of(0.0), product);
+        let (products, count) = in_extended::<N>(sum, case);
         in_floats(&products[..count])
     }
 

@@ -9,6 +9,7 @@ use super::signs::{DecidingSigns, Determinant};
 use crate::arith::scale_by_power_of_two;
 use crate::case::Case;
 use crate::truth::Truth;
+use std::cell::LazyCell;
 use std::cmp::Ordering;
 
 /// The truth of a valid case, and the last layer that it needed.
@@ -28,7 +29,11 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
             sign
         })
     };
-    let weights = [0, 1, 2].map(|k| sign(Determinant::Weight(k)));
+    let weights = [
+        sign(Determinant::Weight(0)),
+        sign(Determinant::Weight(1)),
+        sign(Determinant::Weight(2)),
+    ];
     // U+V+W = -D: weights that agree need no D, and zero weights with them.
     let (any_less, any_greater) = (
         weights.contains(&Ordering::Less),
@@ -55,10 +60,13 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
             sign
         }
     };
-    let unscaled = filter::compute(case.vectors());
+    let unscaled = LazyCell::new(|| filter::compute(case.vectors()));
     let mut from = |end: f64| {
         if end == 0.0 {
             return relative(t);
+        }
+        if end.is_infinite() {
+            return 0.0f64.total_cmp(&end);
         }
         match unscaled.is_past(end) {
             Some(true) => Ordering::Greater,
@@ -102,26 +110,35 @@ fn is_moderate(case: &Case<f64>) -> bool {
 /// determinant by a positive number, so all signs stay. What underflows is off by less than 2^-1074,
 /// which the layers' bounds allow for; t changes, so the interval means nothing here.
 fn scaled_axes(case: &Case<f64>) -> Case<f64> {
-    let [o, d, a, b, c] = case.vectors();
-    let exponent = |x: f64| (x != 0.0).then(|| monomials::exponent_of(x));
-    let axis = [0, 1, 2].map(|i| {
-        [o[i], a[i], b[i], c[i]]
-            .into_iter()
-            .filter_map(exponent)
-            .max()
-    });
-    let shift = axis.map(|largest| -largest.unwrap_or(0));
-    let longest = (0..3)
-        .filter_map(|i| exponent(d[i]).map(|e| e + shift[i]))
-        .max()
-        .unwrap_or(0);
-    let position = |p: [f64; 3]| [0, 1, 2].map(|i| scale_by_power_of_two(p[i], shift[i]));
-    let direction = [0, 1, 2].map(|i| scale_by_power_of_two(d[i], shift[i] - longest));
-    Case::new(
-        position(o),
-        direction,
-        [position(a), position(b), position(c)],
-    )
+    let [mut o, mut d, mut a, mut b, mut c] = case.vectors();
+    let mut longest = None;
+    let mut shifts = [0; 3];
+    for i in 0..3 {
+        let of_axis = [o[i], a[i], b[i], c[i]];
+        shifts[i] = -largest_exponent(of_axis).unwrap_or(0);
+        let of_direction = largest_exponent([d[i]]).map(|exponent| exponent + shifts[i]);
+        longest = longest.max(of_direction);
+    }
+    let longest = longest.unwrap_or(0);
+    for i in 0..3 {
+        for position in [&mut o, &mut a, &mut b, &mut c] {
+            position[i] = scale_by_power_of_two(position[i], shifts[i]);
+        }
+        d[i] = scale_by_power_of_two(d[i], shifts[i] - longest);
+    }
+    Case::new(o, d, [a, b, c])
+}
+
+/// The largest binary exponent of numbers; none of zeros.
+#[inline(always)]
+fn largest_exponent<const N: usize>(numbers: [f64; N]) -> Option<i32> {
+    let mut largest = None;
+    for x in numbers {
+        if x != 0.0 {
+            largest = largest.max(Some(monomials::exponent_of(x)));
+        }
+    }
+    largest
 }
 
 #[cfg(test)]
@@ -131,7 +148,7 @@ mod tests {
     use crate::case::Draw;
 
     /// The exponent of the largest number; none of zeros.
-    fn largest_exponent(numbers: &[f64]) -> Option<i64> {
+    fn largest_of(numbers: &[f64]) -> Option<i64> {
         let exponent = |x: &f64| {
             let (digits, exponent) = decompose(*x);
             (digits != 0).then(|| exponent + i64::from(63 - digits.unsigned_abs().leading_zeros()))
@@ -169,22 +186,17 @@ mod tests {
                 let column = |case: &Case<f64>| case.vectors().map(|v| v[axis]);
                 let positions = |[o, _, a, b, c]: [f64; 5]| [o, a, b, c];
                 let (was, is) = (positions(column(&case)), positions(column(&near_one)));
-                let Some(exponent) = largest_exponent(&was) else {
+                let Some(exponent) = largest_of(&was) else {
                     assert_eq!(is, was);
                     continue;
                 };
                 of_axis[axis] = exponent;
-                assert_eq!(
-                    largest_exponent(&is),
-                    Some(0),
-                    "axis {axis} of {}",
-                    case.hex()
-                );
+                assert_eq!(largest_of(&is), Some(0), "axis {axis} of {}", case.hex());
                 let expected = was.map(|x| scale_by_power_of_two(x, -exponent as i32));
                 assert_eq!(is, expected, "axis {axis} of {}", case.hex());
             }
             // The direction's exponents move with the axes, and then together.
-            let moved = |i: usize| largest_exponent(&[d[i]]).map(|e| e - of_axis[i]);
+            let moved = |i: usize| largest_of(&[d[i]]).map(|e| e - of_axis[i]);
             if let Some(longest) = (0..3).filter_map(moved).max() {
                 let [_, direction, ..] = near_one.vectors();
                 let power = |i: usize| (-of_axis[i] - longest) as i32;

@@ -1,7 +1,7 @@
 //! The exact sign of a sum of products of four floats, whatever their exponents, in integers of 256 bits.
 
+use super::fixed::I256;
 use std::cmp::Ordering;
-use std::ops::{Add, Neg};
 
 /// Four integers of up to 53 bits times 2^exponent.
 #[derive(Clone, Copy)]
@@ -21,13 +21,7 @@ impl ExactProduct {
 
     fn digits(&self) -> I256 {
         let [x, y, z, w] = self.factors.map(i128::from);
-        let (one, other) = (x * y, z * w);
-        let digits = I256::product(one.unsigned_abs(), other.unsigned_abs());
-        if (one < 0) == (other < 0) {
-            digits
-        } else {
-            -digits
-        }
+        I256::product(x * y, z * w)
     }
 }
 
@@ -64,151 +58,12 @@ pub(super) fn sign_of_sum(products: &[ExactProduct]) -> Ordering {
     sum.cmp(&I256::ZERO)
 }
 
-/// `high * 2^128 + low`. Ordered by value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct I256 {
-    high: i128,
-    low: u128,
-}
-
-impl I256 {
-    const ZERO: I256 = I256 { high: 0, low: 0 };
-
-    /// The product of two numbers below 2^107.
-    #[inline(always)]
-    fn product(a: u128, b: u128) -> I256 {
-        let halves = |x: u128| (x >> 64, x & u128::from(u64::MAX));
-        let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
-        let middle = a_high * b_low + a_low * b_high;
-        let (low, carry) = (a_low * b_low).overflowing_add(middle << 64);
-        let high = a_high * b_high + (middle >> 64) + u128::from(carry);
-        I256 {
-            high: high as i128,
-            low,
-        }
-    }
-
-    /// How many bits its absolute value has.
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        let I256 { high, low } = if self.high < 0 { -self } else { self };
-        if high == 0 {
-            128 - low.leading_zeros()
-        } else {
-            256 - high.leading_zeros()
-        }
-    }
-
-    /// Times 2^places. The result has at most 255 bits.
-    #[inline(always)]
-    fn shifted(self, places: u32) -> I256 {
-        match places {
-            0 => self,
-            1..128 => I256 {
-                high: self.high << places | (self.low >> (128 - places)) as i128,
-                low: self.low << places,
-            },
-            _ => I256 {
-                high: (self.low << (places - 128)) as i128,
-                low: 0,
-            },
-        }
-    }
-}
-
-impl Add for I256 {
-    type Output = I256;
-    #[inline(always)]
-    fn add(self, other: I256) -> I256 {
-        let (low, carry) = self.low.overflowing_add(other.low);
-        I256 {
-            high: self.high + other.high + i128::from(carry),
-            low,
-        }
-    }
-}
-
-impl Neg for I256 {
-    type Output = I256;
-    #[inline(always)]
-    fn neg(self) -> I256 {
-        I256 {
-            high: !self.high,
-            low: !self.low,
-        } + I256 { high: 0, low: 1 }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::fixed::number_of_bits;
     use super::*;
     use crate::case::Draw;
     use num_bigint::BigInt;
-
-    impl I256 {
-        fn big(self) -> BigInt {
-            (BigInt::from(self.high) << 128) + self.low
-        }
-
-        fn of(value: &BigInt) -> I256 {
-            let low: BigInt = value & BigInt::from(u128::MAX);
-            let high: BigInt = value >> 128;
-            I256 {
-                high: high.try_into().expect("256 bits"),
-                low: low.try_into().expect("128 bits"),
-            }
-        }
-    }
-
-    /// A number of so many bits: the largest, a power of two, or any; of either sign.
-    fn number(draw: &mut Draw, bits: i64) -> BigInt {
-        let most: BigInt = (BigInt::from(1) << bits) - 1;
-        let any: BigInt = (0..4).fold(BigInt::ZERO, |sum, _| (sum << 64) + draw.bits());
-        let x = match draw.below(3) {
-            0 => most.clone(),
-            1 => (&most + 1) >> 1,
-            _ => any & &most,
-        };
-        x * draw.pick(&[1, -1])
-    }
-
-    #[test]
-    fn integers_are_those_of_any_size() {
-        for index in 0..20_000 {
-            let mut draw = Draw::new("256 bits", 1, index);
-            let [x, y] = [0; 2].map(|_| {
-                let bits = draw.integer(1, 254);
-                number(&mut draw, bits)
-            });
-            let places = 255 - x.bits().max(1);
-            let places = draw.integer(0, places as i64) as u32;
-            let [a, b] = [&x, &y].map(I256::of);
-            assert_eq!(
-                [a.big(), b.big(), (a + b).big()],
-                [x.clone(), y.clone(), &x + &y]
-            );
-            assert_eq!(((-a).big(), a.cmp(&b)), (-&x, x.cmp(&y)), "{x} {y}");
-            assert_eq!(
-                (u64::from(a.bits()), a.shifted(places).big()),
-                (x.bits(), &x << places)
-            );
-            let factors = [0; 4].map(|_| {
-                let bits = draw.integer(0, 53);
-                i64::try_from(number(&mut draw, bits)).expect("53 bits")
-            });
-            let product: BigInt = factors.iter().map(|x| BigInt::from(*x)).product();
-            assert_eq!(
-                ExactProduct {
-                    factors,
-                    exponent: 0
-                }
-                .digits()
-                .big(),
-                product,
-                "{factors:?}"
-            );
-        }
-    }
 
     #[test]
     fn a_sum_decides_only_if_it_outweighs_all_that_may_come() {
@@ -246,7 +101,7 @@ mod tests {
                 };
                 let factors = [0; 4].map(|_| {
                     let bits = draw.pick(&[1, 40, 53, 53]);
-                    i64::try_from(number(&mut draw, bits)).expect("53 bits")
+                    i64::try_from(number_of_bits(&mut draw, bits)).expect("53 bits")
                 });
                 add(factors, 0);
                 // What cancels it, in full or but for a little: another product that is as large.
