@@ -313,7 +313,9 @@ impl ProveArguments {
         let choice = EpsilonChoice::parse(text)
             .map_err(|error| Failure::usage(format!("--epsilon: {error}")))?;
         // As an audit would refuse them.
-        choice.rows(entries, None)?;
+        let scalars = chosen_scalars(&self.scalar)?;
+        let rows = choice.rows(entries, None)?;
+        rows.iter().try_for_each(|row| row.check_in(scalars))?;
         Ok(Epsilons::Given(choice.given().to_vec()))
     }
 }

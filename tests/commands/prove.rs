@@ -75,7 +75,7 @@ fn the_sentences_of_moller_trumbore_say_what_its_epsilon_is_good_for() {
         "{out}"
     );
     // What underflow adds is of the domain: see crates/prove/src/tests/permanent.rs.
-    let relative = "Where nothing overflows and no product underflows, it is wrong by at most 7.01 u times its permanent";
+    let relative = "Where nothing overflows and no product or quotient underflows, it is wrong by at most 7.01 u times its permanent";
     assert!(
         out.contains(relative) && out.contains("In the unit domain it is, underflow or not,"),
         "{out}"
@@ -550,6 +550,15 @@ fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
     wrong("paralel=1", "no selected kernel has a gate 'paralel'");
     wrong("parallel", "--epsilon: 'parallel' is not GATE=VALUE");
     wrong("parallel=x", "");
+    // In f32 every number is below the one, and the other is 0.
+    wrong(
+        "edge=1e39",
+        "gate 'edge' of moller-trumbore: 1e39 is beyond the range of f32 (see --scalar)",
+    );
+    wrong(
+        "parallel=1e-50",
+        "gate 'parallel' of moller-trumbore: 1e-50 is 0 in f32 (see --scalar)",
+    );
     let two = ["prove", "--kernel", "cramer,plucker", "--epsilon", "edge=0"];
     refused(&two, 2, "--epsilon is of one --kernel");
     // What is proved whatever the size of triangles is said in any scene.

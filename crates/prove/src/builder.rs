@@ -293,11 +293,7 @@ impl<'p, 'a> Builder<'p, 'a> {
         match operation {
             Operation::Input(_) => unreachable!("inputs are leaves"),
             Operation::Number(value) => {
-                let odd = value.unsigned_abs() >> value.trailing_zeros().min(31);
-                let digits = u32::BITS - odd.leading_zeros();
-                if self.prover.format.digits < digits {
-                    return Err("it has a number of more digits than a float has".to_owned());
-                }
+                self.prover.format.check_whole(value)?;
                 return Ok(self.number(value));
             }
             Operation::Div(..) | Operation::Sqrt(_) | Operation::Abs(_) => return self.cut(place),

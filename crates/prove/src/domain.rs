@@ -42,6 +42,16 @@ impl Format {
         Dyadic::power(exponent)
     }
 
+    /// An error unless a whole number has at most as many digits as a float. A larger power of two is a float too; the checker of
+    /// certificates takes none.
+    pub fn check_whole(self, number: i32) -> Result<(), String> {
+        if u64::from(number.unsigned_abs()) <= 1 << self.digits {
+            Ok(())
+        } else {
+            Err("it has a number of more digits than a float has".to_owned())
+        }
+    }
+
     /// Half the smallest subnormal number.
     pub fn tiny(self) -> Dyadic {
         Dyadic::power(self.smallest - 1)

@@ -9,6 +9,7 @@ use hairline_core::{arith, case, contract, kernel};
 mod bound;
 mod builder;
 pub mod certificate;
+mod claims;
 mod climb;
 mod corners;
 mod depth;
@@ -29,6 +30,7 @@ mod others;
 mod permanent;
 mod quotient;
 pub mod repair;
+mod rounded;
 mod run;
 mod samples;
 mod scene;
@@ -58,10 +60,11 @@ pub use names::Names;
 pub use order::{is_at_most, is_impossible};
 pub use others::{End, Other, WrongDecisions};
 pub use permanent::{Relative, Roundings, relative};
+pub use rounded::{above, below, units};
 pub use run::run;
 pub use scene::{Scene, Shape};
 pub use sizes::BySize;
-pub use statement::{Published, Triangles, about_edges, above, below, statements, units};
+pub use statement::{Published, Triangles, about_edges, statements};
 pub use summary::{
     Effort, GOALS, GateSummary, Summary, Witness, bound_of_gate, format_of, paths_of,
 };

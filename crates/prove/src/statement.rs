@@ -1,5 +1,7 @@
 //! From bounds to sentences: which epsilons are proved to do what.
 
+use super::claims;
+use super::rounded::{above, below, degrees, signed, units};
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness};
 use super::witness::Searched;
@@ -70,36 +72,39 @@ pub fn statements<F: Searched + Scalar>(
     }) = &gate.relative
     {
         lines.push(format!(
-            "Where nothing overflows and no product underflows, it is wrong by at most {} u times its permanent (the \
-             sum of the sizes of its terms), at any exponents. In {} it is, underflow or not, wrong by at most that \
-             and {}; a product that underflows in larger numbers may cost more.",
+            "Where nothing overflows and no product or quotient underflows, it is wrong by at most {} u times its \
+             permanent (the sum of the sizes of its terms), at any exponents. In {} it is, underflow or not, wrong by \
+             at most that and {}; one that underflows beside larger numbers may cost more.",
             units(factor.to_f64() / unit, true),
             if scene.is_some() { "this scene" } else { "the unit domain" },
-            above(underflow.to_f64())
+            above(underflow.to_f64().next_up())
         ));
     }
     let tunable = gate.gate.epsilon != crate::kernel::Tunable::Fixed;
     match gate.gate.role {
+        _ if !gate.is_margin && !claims::compares_with_zero(summary, gate.index) => {}
         _ if !gate.is_margin => lines.push(format!(
             "At an epsilon of 0 this gate decides otherwise than exact arithmetic only where the exact number \
              is within {} of 0.",
             above(beta)
         )),
-        Role::Parallel if tunable => {
+        Role::Parallel if tunable && claims::is_zero_of_parallel_rays(summary, gate.index) => {
             let mut sizes = BySize::new::<F>(entry, gate.index);
             let own = sizes.as_mut().filter(|_| gate.uses.is_of_edges_alone());
             parallel(gate, scene, own, beta, published, &mut lines);
-            let sizes = sizes.filter(|_| scene.is_none() && !gate.uses.floor);
+            let sizes =
+                sizes.filter(|_| scene.is_none() && !gate.uses.floor && !gate.uses.extent);
             if let Some(mut sizes) = sizes {
                 for epsilon in published.iter().filter(|(_, e)| *e > 0.0) {
-                    lines.push(about_epsilon(summary, gate, &mut sizes, epsilon));
+                    lines.push(about_epsilon(entry, summary, gate, &mut sizes, epsilon));
                 }
             }
         }
-        Role::Edge => lines.push(format!(
+        Role::Edge if claims::loses_no_hit(entry, summary, gate.index) => lines.push(format!(
             "An epsilon below {} loses no hit at an edge.",
             signed(-beta, false)
         )),
+        Role::Edge => {}
         _ if tunable => {
             lines.push(format!(
                 "An epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
@@ -109,8 +114,8 @@ pub fn statements<F: Searched + Scalar>(
             lines.extend(published.iter().map(|(name, value)| {
                 format!(
                     "e = {name} refuses no exact value of {} and more, and accepts none of {} and less.",
-                    signed(value + beta, true),
-                    signed(value - beta, false)
+                    signed((value + beta).next_up(), true),
+                    signed((value - beta).next_down(), false)
                 )
             }));
         }
@@ -239,16 +244,25 @@ fn parallel<F: Searched + Scalar>(
 
 /// How far one published epsilon carries.
 fn about_epsilon<F: Searched + Scalar>(
+    entry: &Entry,
     summary: &Summary<F>,
     gate: &GateSummary<F>,
     sizes: &mut BySize,
     (name, value): &Published,
 ) -> String {
-    let what = if gate.uses.edge {
-        "edges"
-    } else {
-        "vectors from the origin to the vertices"
-    };
+    let (uses, domain) = (gate.uses, &summary.domain);
+    let all = [
+        (uses.edge, "edges", domain.edge),
+        (
+            uses.reach,
+            "vectors from the origin to the vertices",
+            domain.reach,
+        ),
+        (uses.world, "points", domain.world),
+    ];
+    let used = all.into_iter().filter(|(is_used, ..)| *is_used);
+    let names: Vec<&str> = used.clone().map(|(_, name, _)| name).collect();
+    let what = names.join(" and of ");
     let proved = sizes.largest(F::from_f64(*value).to_f64()).map_or_else(
         || format!("e = {name} is proved for no size of {what}."),
         |size| {
@@ -264,18 +278,18 @@ fn about_epsilon<F: Searched + Scalar>(
         .map(|witness| witness.score)
         .filter(|x| *x > 0.0);
     let length = gate.gate.dimension.length;
-    let fails = passes.filter(|_| length > 0).map(|score| {
-        let bound = if gate.uses.edge {
-            summary.domain.edge
-        } else {
-            summary.domain.reach
-        };
+    let fails = passes.filter(|_| length > 0).and_then(|score| {
+        let bounds = used.map(|(.., bound)| bound.to_f64());
+        let bound = bounds.fold(0.0, f64::max);
         let exponent = ((value / score).log2() / f64::from(length)).floor() as i32 + 1;
-        let size = bound.to_f64() * 2f64.powi(exponent);
-        format!(
-            " A known parallel ray passes it where they are up to {}.",
-            above(size)
-        )
+        let size = bound * 2f64.powi(exponent);
+        // Where products underflow a power of two does change roundings.
+        claims::passes_scaled(entry, gate, exponent, *value).then(|| {
+            format!(
+                " A known parallel ray passes it where they are up to {}.",
+                above(size)
+            )
+        })
     });
     format!("{proved}{}", fails.unwrap_or_default())
 }
@@ -303,73 +317,4 @@ pub fn about_edges(symmetry: Symmetry) -> &'static str {
              t_min or t_max."
         }
     }
-}
-
-/// A positive number in three digits, not below it.
-pub fn above(x: f64) -> String {
-    short(x, true)
-}
-
-/// A positive number in three digits, not above it.
-pub fn below(x: f64) -> String {
-    short(x, false)
-}
-
-/// A number of either sign in three digits, not below it, or not above it.
-fn signed(x: f64, up: bool) -> String {
-    if x < 0.0 {
-        format!("-{}", short(-x, !up))
-    } else {
-        short(x, up)
-    }
-}
-
-fn short(x: f64, up: bool) -> String {
-    if x == 0.0 || !x.is_finite() {
-        return x.to_string();
-    }
-    let exponent = x.log10().floor() as i32;
-    let scale = 10f64.powi(2 - exponent);
-    let digits = if up {
-        (x * scale - 1e-9).ceil()
-    } else {
-        (x * scale + 1e-9).floor()
-    };
-    let (digits, exponent) = if digits >= 1000.0 {
-        (100.0, exponent + 1)
-    } else {
-        (digits, exponent)
-    };
-    if (-2..4).contains(&exponent) {
-        let decimals = (2 - exponent).max(0) as usize;
-        let text = format!("{:.decimals$}", digits / 10f64.powi(2 - exponent));
-        let text = if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.')
-        } else {
-            &text
-        };
-        text.to_owned()
-    } else {
-        format!("{:.2}e{exponent}", digits / 100.0)
-    }
-}
-
-/// A number of units in two decimals, not below it, or not above it.
-pub fn units(x: f64, up: bool) -> String {
-    if (0.01..1e4).contains(&x) {
-        let hundreds = if up {
-            (x * 100.0 - 1e-9).ceil()
-        } else {
-            (x * 100.0 + 1e-9).floor()
-        };
-        format!("{:.2}", hundreds / 100.0)
-    } else {
-        short(x, up)
-    }
-}
-
-fn degrees(angle: f64) -> String {
-    let text = above(angle);
-    let unit = if text == "1" { "degree" } else { "degrees" };
-    format!("{text} {unit}")
 }

@@ -2,6 +2,7 @@
 //! on the other side, and shows what follows for rays there.
 
 use super::normal::{Forms, Signed};
+use super::order::is_at_most;
 use super::run::parts;
 use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
@@ -103,11 +104,18 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
     Some([ab, bc, ca])
 }
 
-/// True if a number does not depend on t_min or t_max, which differ from triangle to triangle as hits are found, and no
-/// vertex is in a divisor, where 0 divided by 0 would be refused on both sides of an edge, or under a root.
+/// True if a number does not depend on t_min or t_max, which differ from triangle to triangle as hits are found, and is never
+/// NaN, which may be refused on both sides of an edge: it divides by nothing but the largest coordinate of the direction, and has no
+/// root.
 fn is_sound(path: &Path, place: Place) -> bool {
+    let is_largest = |divisor: Place| match path.operations[divisor as usize] {
+        Operation::Input(k @ 3..6) => (3..6).all(|other| is_at_most(path, other, k)),
+        Operation::Number(value) => value != 0,
+        _ => false,
+    };
     let is_critical = |part: &Place| match path.operations[*part as usize] {
-        Operation::Div(_, part) | Operation::Sqrt(part) => depends(path, part, VERTICES),
+        Operation::Div(_, divisor) => !is_largest(divisor),
+        Operation::Sqrt(_) => true,
         _ => false,
     };
     let parts = parts(&path.operations, place);

@@ -83,10 +83,11 @@ impl Arena {
     }
 
     fn product(&mut self, a: Place, b: Place) -> Place {
-        if self.is_number(a, 1) {
-            b
-        } else if self.is_number(b, 1) {
+        // Zero times a number is zero: as a product, its size would be NaN where that of the other factor overflows.
+        if self.is_number(a, 0) || self.is_number(b, 1) {
             a
+        } else if self.is_number(a, 1) || self.is_number(b, 0) {
+            b
         } else {
             self.push(Operation::Mul(a, b))
         }
@@ -215,7 +216,11 @@ impl<'a> Numbers<'a> {
                     numerator,
                     divisors,
                 } = self.fraction(a);
-                let numerator = self.arena.push(Abs(numerator));
+                let numerator = if self.arena.is_number(numerator, 0) {
+                    numerator
+                } else {
+                    self.arena.push(Abs(numerator))
+                };
                 let odd = |place: &Place| divisors.iter().filter(|d| *d == place).count() % 2 == 1;
                 let mut last = None;
                 let mut sized = Vec::new();

@@ -127,10 +127,13 @@ impl Margins<'_> {
                 ..Count::INPUT
             },
             Operation::Input(_) => Count::INPUT,
-            Operation::Number(_) => Count {
-                underflows: 0,
-                ..Count::INPUT
-            },
+            Operation::Number(value) => {
+                self.scale.format.check_whole(value)?;
+                Count {
+                    underflows: 0,
+                    ..Count::INPUT
+                }
+            }
             Operation::Neg(a) | Operation::Abs(a) => of(a)?,
             Operation::Add(a, b) | Operation::Sub(a, b) => of(a)?.sum(of(b)?),
             Operation::Mul(a, b) => {

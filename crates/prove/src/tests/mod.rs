@@ -1,3 +1,4 @@
+mod claims;
 mod constants;
 mod gates;
 mod meaning;

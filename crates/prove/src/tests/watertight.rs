@@ -50,6 +50,10 @@ enum Decides {
     OnOneAxis,
     /// Opposite, but 0 divided by 0 where the edge's ends have one x.
     DividedByTheEdge,
+    /// Opposite, but 0 divided by 0 for a ray across the axis of the picture.
+    SeenAlongOneAxis,
+    /// Opposite, but the root of a negative number for rays of one side.
+    WithARoot,
     /// Opposite, but another picture once a hit has shortened the interval.
     WithTheInterval,
     /// It goes on where the gate has refused.
@@ -95,6 +99,11 @@ impl Kernel for Flat {
         let (x, y) = if turned { (1, 2) } else { (0, 1) };
         let at = |p: &V, axis: usize| match decides {
             WithTheInterval => p.at(axis) + &ray.t_max,
+            SeenAlongOneAxis => {
+                let slope = ray.direction.at(axis) / &ray.direction.at(2);
+                p.at(axis) - &(slope * &p.at(2))
+            }
+            WithARoot => p.at(axis) * &ray.direction.at(2).sqrt(),
             _ => p.at(axis),
         };
         let edge = |p: &V, q: &V| {
@@ -193,6 +202,8 @@ fn all_edges_that_one_ray_may_meet_are_of_one_picture_and_decided_by_their_close
         (OneDoubled, Symmetry::None),
         (NotOpposite, Symmetry::None),
         (DividedByTheEdge, Symmetry::None),
+        (SeenAlongOneAxis, Symmetry::None),
+        (WithARoot, Symmetry::None),
         (WithTheInterval, Symmetry::None),
     ] {
         let paths = paths_of_flat(decides).unwrap();
