@@ -31,7 +31,7 @@ pub fn compares_with_zero<F>(summary: &Summary<F>, gate: usize) -> bool {
     })
 }
 
-/// What a gate compares, wherever it does; none if something is not read.
+/// The decisions of a gate, wherever it is asked; none if something of them is not read.
 fn forms_of<F>(summary: &Summary<F>, gate: usize) -> Option<Vec<Form>> {
     let proof = &summary.proof;
     let mut meanings = Meanings::new(proof);

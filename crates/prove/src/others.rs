@@ -16,7 +16,7 @@ use std::ops::Range;
 /// A gate that is not about edges, and where it may decide wrongly.
 #[derive(Clone, Debug)]
 pub struct Other {
-    /// The gate; none for a test of an end that no gate has.
+    /// The gate; none for a test of an end, or of the side, that no gate has.
     pub gate: Option<usize>,
     /// Where.
     pub may: WrongDecisions,
@@ -35,6 +35,8 @@ pub enum WrongDecisions {
     Unknown,
     /// No gate compares t with this end, so hits beyond it are let through.
     Missing(End),
+    /// The contract is of front faces alone, and no gate refuses the back wherever it is asked.
+    Back,
 }
 
 /// An end of the ray.
@@ -67,6 +69,17 @@ struct OnPath {
 }
 
 impl OnPath {
+    /// True if a hit of the back is refused, or if it is not known which side its numbers are of.
+    fn refuses_back(&self) -> bool {
+        let is_against = |fact: &Fact| {
+            let is_turned = fact.has_sign() && matches!(fact.scale, Scale::Over(_));
+            is_turned || !fact.is_side(true)
+        };
+        let refuses = |form: &Form| form.ways.iter().all(|way| way.iter().any(is_against));
+        let is_of_front = matches!(self.side, Some((Scale::Over(_), _) | (_, false)));
+        is_of_front || self.comparisons.iter().any(refuses)
+    }
+
     /// The ends that it looks at.
     fn ends(&self) -> impl Iterator<Item = End> {
         let facts = self.comparisons.iter().flat_map(Form::facts);
@@ -81,11 +94,14 @@ impl<'a> Others<'a> {
         let mut ends = Vec::new();
         // What is not read, or refuses without a gate, may look at an end.
         let mut is_all_read = self.proof.paths.iter().all(|path| path.hits);
+        let mut refuses_back = self.entry.info.contract.sides != Sides::Front;
         for (gate, info) in self.entry.info.gates.iter().enumerate() {
             let on_paths = self.on_paths(gate, meanings);
             is_all_read &= on_paths.is_some();
-            let found = on_paths.as_ref().map(|all| ends_in(all));
-            ends.extend(found.into_iter().flatten());
+            if let Some(on_paths) = &on_paths {
+                ends.extend(ends_in(on_paths));
+                refuses_back |= on_paths.iter().all(OnPath::refuses_back);
+            }
             if info.role == Role::Edge {
                 continue;
             }
@@ -105,6 +121,12 @@ impl<'a> Others<'a> {
             others.push(Other {
                 gate: None,
                 may: WrongDecisions::Missing(*end),
+            });
+        }
+        if is_all_read && !refuses_back {
+            others.push(Other {
+                gate: None,
+                may: WrongDecisions::Back,
             });
         }
         others

@@ -201,12 +201,12 @@ fn a_gate_of_the_wrong_sign_is_not_said_to_refuse_no_hit() {
 
 #[test]
 fn an_end_that_no_gate_looks_at_is_missing() {
-    use WrongDecisions::{Ends, Missing, Unknown};
+    use WrongDecisions::{Back, Ends, Missing, Unknown};
     let [both, front, interval] = &INFOS;
     let [start, far] = [End::Start, End::Far].map(Missing);
     let all = [
         (Time, both, vec![]),
-        (Time, front, vec![]),
+        (Time, front, vec![Back]),
         (TimeOnEachSide, both, vec![]),
         (BeforeMax, interval, vec![start]),
         (BeforeMaxOrZero, interval, vec![start]),
@@ -220,4 +220,28 @@ fn an_end_that_no_gate_looks_at_is_missing() {
     // From t_min on t itself says nothing, and a ray has no t_max.
     assert_eq!(said(Time, interval), (Unknown, vec![far]));
     assert_eq!(said(BeforeMax, both), (Unknown, vec![start]));
+}
+
+#[test]
+fn a_gate_of_the_back_is_missing_where_front_faces_are_promised() {
+    use WrongDecisions::Back;
+    let [both, front, _] = &INFOS;
+    for (wants, is_missing) in [
+        (Facing, false),
+        (NegativeSize, false),
+        (Volume, true),
+        (Size, true),
+        (EitherVolume, true),
+        (TimeOnEachSide, true),
+        // Which side its numbers are of is not known, or which path is taken.
+        (TwoScales, false),
+        (TimeOnOneSide, true),
+    ] {
+        assert!(!said(wants, both).1.contains(&Back));
+        assert_eq!(
+            said(wants, front).1.contains(&Back),
+            is_missing,
+            "{wants:?}"
+        );
+    }
 }

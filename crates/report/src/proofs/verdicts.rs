@@ -105,6 +105,7 @@ impl VerdictPart {
             gate: match (it.gate, it.may) {
                 (Some(gate), _) => row.entry.info.gates[gate].name.to_owned(),
                 (None, WrongDecisions::Missing(End::Far)) => "t_max".to_owned(),
+                (None, WrongDecisions::Back) => "of the back".to_owned(),
                 (None, _) => "t".to_owned(),
             },
             may: may(&it.may),
@@ -233,6 +234,9 @@ fn may(may: &WrongDecisions) -> String {
         }
         WrongDecisions::Missing(End::Far) => {
             "is missing: hits beyond the ray's end are let through.".to_owned()
+        }
+        WrongDecisions::Back => {
+            "is missing: front faces alone are promised, and no gate refuses every back.".to_owned()
         }
     }
 }
