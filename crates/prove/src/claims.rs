@@ -50,7 +50,7 @@ fn forms_of<F>(summary: &Summary<F>, gate: usize) -> Option<Vec<Form>> {
     Some(forms)
 }
 
-/// True if a gate compares weights alone, and at an epsilon low enough refuses no hit on the sides that are owed.
+/// True if a gate compares weights alone, and some epsilon is low enough that it refuses no hit on the sides that are owed.
 pub fn loses_no_hit<F>(entry: &Entry, summary: &Summary<F>, gate: usize) -> bool {
     let sides = entry.info.contract.sides;
     forms_of(summary, gate).is_some_and(|forms| {
@@ -61,11 +61,14 @@ pub fn loses_no_hit<F>(entry: &Entry, summary: &Summary<F>, gate: usize) -> bool
     })
 }
 
-/// True if each way to be accepted wants a number that is 0 for every ray that is exactly parallel.
+/// True if every hit has to pass the gate, and each way to pass it wants a number that is 0 for every ray that is exactly parallel.
 pub fn is_zero_of_parallel_rays<F>(summary: &Summary<F>, gate: usize) -> bool {
     let is_zero =
         |fact: &Fact| matches!(fact.what, What::One | What::Size) && fact.scale.has_sign();
-    forms_of(summary, gate).is_some_and(|forms| {
+    let mut hits = summary.proof.paths.iter().filter(|path| path.hits);
+    let is_asked = hits.all(|path| path.compared.iter().any(|it| it.gate == gate));
+    let forms = forms_of(summary, gate).filter(|_| is_asked);
+    forms.is_some_and(|forms| {
         let mut ways = forms.iter().flat_map(|form| &form.ways);
         ways.all(|way| way.iter().any(is_zero))
     })

@@ -42,8 +42,8 @@ impl Format {
         Dyadic::power(exponent)
     }
 
-    /// An error unless a whole number has at most as many digits as a float. A larger power of two is a float too; the checker of
-    /// certificates takes none.
+    /// An error if a whole number is above 2^digits. Larger powers of two are floats too, but the checker of certificates refuses
+    /// them.
     pub fn check_whole(self, number: i32) -> Result<(), String> {
         if u64::from(number.unsigned_abs()) <= 1 << self.digits {
             Ok(())

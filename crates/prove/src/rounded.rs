@@ -20,7 +20,7 @@ pub fn signed(x: f64, up: bool) -> String {
 }
 
 /// The least whole number of units of 10^exponent that is not below a positive number, or the largest that is not above it. A
-/// decimal as which the number itself is read counts as the number.
+/// decimal that is read back as this very float counts as equal to it.
 fn whole(nearest: f64, exponent: i32, x: f64, up: bool) -> f64 {
     let decimal = format!("{nearest}e{exponent}").parse();
     let decimal: f64 = decimal.expect("a number as it is printed");
@@ -34,7 +34,10 @@ fn whole(nearest: f64, exponent: i32, x: f64, up: bool) -> f64 {
 }
 
 fn short(x: f64, up: bool) -> String {
-    if x == 0.0 || !x.is_finite() {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    if !x.is_finite() {
         return x.to_string();
     }
     // Three digits that are rounded to nearest, whatever the exponent.

@@ -5,7 +5,7 @@ use super::rounded::{above, below, degrees, signed, units};
 use super::sizes::BySize;
 use super::summary::{GateSummary, Summary, Witness};
 use super::witness::Searched;
-use super::{Assumption, Domain, Relative, Scene, Shape, Symmetry};
+use super::{Assumption, Domain, Dyadic, Relative, Scene, Shape, Symmetry};
 use crate::kernel::{Entry, Role, Scalar};
 
 /// An epsilon, and where it comes from.
@@ -33,7 +33,7 @@ pub fn statements<F: Searched + Scalar>(
         Ok(bound) => *bound,
         Err(why) => return vec![format!("No bound: {why}.")],
     };
-    let beta = bound.to_f64();
+    let beta = rounded_up(bound);
     let unit = summary.format.unit().to_f64();
     let in_units = |x: f64| format!("{} ({} u)", above(x), units(x / unit, true));
     let where_ = if scene.is_none() && gate.uses.floor {
@@ -52,6 +52,12 @@ pub fn statements<F: Searched + Scalar>(
         )
     } else {
         String::new()
+    };
+    // Whatever follows from the bound holds where it does.
+    let there = if where_.is_empty() {
+        "An"
+    } else {
+        "With such divisors and quotients an"
     };
     let known = gate.witnesses[0]
         .as_ref()
@@ -77,21 +83,20 @@ pub fn statements<F: Searched + Scalar>(
              at most that and {}; one that underflows beside larger numbers may cost more.",
             units(factor.to_f64() / unit, true),
             if scene.is_some() { "this scene" } else { "the unit domain" },
-            above(underflow.to_f64().next_up())
+            above(rounded_up(*underflow))
         ));
     }
     let tunable = gate.gate.epsilon != crate::kernel::Tunable::Fixed;
     match gate.gate.role {
         _ if !gate.is_margin && !claims::compares_with_zero(summary, gate.index) => {}
         _ if !gate.is_margin => lines.push(format!(
-            "At an epsilon of 0 this gate decides otherwise than exact arithmetic only where the exact number \
-             is within {} of 0.",
+            "{there} epsilon of 0 decides otherwise than exact arithmetic only where the exact number is within {} of 0.",
             above(beta)
         )),
         Role::Parallel if tunable && claims::is_zero_of_parallel_rays(summary, gate.index) => {
             let mut sizes = BySize::new::<F>(entry, gate.index);
             let own = sizes.as_mut().filter(|_| gate.uses.is_of_edges_alone());
-            parallel(gate, scene, own, beta, published, &mut lines);
+            parallel(gate, scene, own, there, published, &mut lines);
             let sizes =
                 sizes.filter(|_| scene.is_none() && !gate.uses.floor && !gate.uses.extent);
             if let Some(mut sizes) = sizes {
@@ -101,19 +106,19 @@ pub fn statements<F: Searched + Scalar>(
             }
         }
         Role::Edge if claims::loses_no_hit(entry, summary, gate.index) => lines.push(format!(
-            "An epsilon below {} loses no hit at an edge.",
+            "{there} epsilon below {} loses no hit at an edge.",
             signed(-beta, false)
         )),
         Role::Edge => {}
         _ if tunable => {
             lines.push(format!(
-                "An epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
+                "{there} epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
                  that it refuses.",
                 above(beta)
             ));
             lines.extend(published.iter().map(|(name, value)| {
                 format!(
-                    "e = {name} refuses no exact value of {} and more, and accepts none of {} and less.",
+                    "{there} epsilon of {name} refuses no exact value of {} and more, and accepts none of {} and less.",
                     signed((value + beta).next_up(), true),
                     signed((value - beta).next_down(), false)
                 )
@@ -122,6 +127,17 @@ pub fn statements<F: Searched + Scalar>(
         _ => {}
     }
     lines
+}
+
+/// A bound as a float that is not below it.
+fn rounded_up(bound: Dyadic) -> f64 {
+    let float = bound.round_up(f64::MANTISSA_DIGITS).to_f64();
+    // Subnormal floats have fewer digits.
+    if 0.0 < float && float < f64::MIN_POSITIVE {
+        float.next_up()
+    } else {
+        float
+    }
 }
 
 /// The limits that a bound in a scene supposes, and what the letters in them mean.
@@ -166,10 +182,13 @@ fn parallel<F: Searched + Scalar>(
     gate: &GateSummary<F>,
     scene: Option<Triangles>,
     own: Option<&mut BySize>,
-    beta: f64,
+    there: &str,
     published: &[Published],
     lines: &mut Vec<String>,
 ) {
+    let Ok(beta) = gate.bound.as_ref().map(|bound| rounded_up(*bound)) else {
+        return;
+    };
     let passes = gate.witnesses[1]
         .as_ref()
         .filter(|witness| witness.score > 0.0);
@@ -180,12 +199,12 @@ fn parallel<F: Searched + Scalar>(
         )
     });
     lines.push(format!(
-        "An epsilon above {} refuses every ray that is exactly parallel.{known}",
+        "{there} epsilon above {} refuses every ray that is exactly parallel.{known}",
         above(beta)
     ));
     let Some(Triangles { shapes, scene }) = scene else {
         lines.push(format!(
-            "With an epsilon e this gate refuses a hit only where the exact value is below e + {}.",
+            "{there} epsilon e refuses a hit only where the exact value is at most e + {}.",
             above(beta)
         ));
         return;
@@ -236,7 +255,9 @@ fn parallel<F: Searched + Scalar>(
             "In this scene, for |d| = 1, {name} {refuses}; {cost}."
         ));
     };
-    say("that epsilon", beta * (1.0 + 1e-9));
+    // Above the number that was printed.
+    let printed: f64 = above(beta).parse().expect("a number as it is printed");
+    say("that epsilon", printed.next_up());
     for (name, value) in published.iter().filter(|(_, e)| *e > 0.0) {
         say(&format!("e = {name}"), *value);
     }
@@ -272,7 +293,7 @@ fn about_epsilon<F: Searched + Scalar>(
             )
         },
     );
-    // A power of two changes no rounding, so the known case passes e at every larger power of two.
+    // Unless a product underflows, a power of two changes no rounding: the known case is run again at that size.
     let passes = gate.witnesses[1]
         .as_ref()
         .map(|witness| witness.score)
@@ -283,7 +304,6 @@ fn about_epsilon<F: Searched + Scalar>(
         let bound = bounds.fold(0.0, f64::max);
         let exponent = ((value / score).log2() / f64::from(length)).floor() as i32 + 1;
         let size = bound * 2f64.powi(exponent);
-        // Where products underflow a power of two does change roundings.
         claims::passes_scaled(entry, gate, exponent, *value).then(|| {
             format!(
                 " A known parallel ray passes it where they are up to {}.",

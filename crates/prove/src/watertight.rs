@@ -2,7 +2,7 @@
 //! on the other side, and shows what follows for rays there.
 
 use super::normal::{Forms, Signed};
-use super::order::is_at_most;
+use super::order::{is_at_most, unsigned};
 use super::run::parts;
 use crate::arith::recorded::{Comparison, Operation, Outcome, Place};
 use crate::kernel::{Acceptance, Compared, Path, Refuse};
@@ -108,7 +108,7 @@ fn three_edges(path: &Path, gates: &[&Compared]) -> Option<[Place; 3]> {
 /// NaN, which may be refused on both sides of an edge: it divides by nothing but the largest coordinate of the direction, and has no
 /// root.
 fn is_sound(path: &Path, place: Place) -> bool {
-    let is_largest = |divisor: Place| match path.operations[divisor as usize] {
+    let is_largest = |divisor: Place| match path.operations[unsigned(path, divisor) as usize] {
         Operation::Input(k @ 3..6) => (3..6).all(|other| is_at_most(path, other, k)),
         Operation::Number(value) => value != 0,
         _ => false,

@@ -12,7 +12,7 @@ pub trait ExactInteger: Clone + Default + Ord {
     /// The same number as an integer of any size.
     fn big(&self) -> BigInt;
 
-    /// The same number in 256 bits; none if it may have more than 191.
+    /// The same number in 256 bits; none unless its size is sure to be at most 2^191.
     fn fixed(&self) -> Option<I256>;
 
     /// The order of the number and zero, which is the default of every integer.
@@ -87,6 +87,10 @@ pub trait Integer:
 
 impl Integer for i128 {
     fn compare_products(a: &i128, b: &i128, c: &i128, d: &i128) -> Ordering {
+        let [left, right] = [a.checked_mul(*b), c.checked_mul(*d)];
+        if let (Some(left), Some(right)) = (left, right) {
+            return left.cmp(&right);
+        }
         let sizes = [a, b, c, d].map(|factor| factor.unsigned_abs());
         if sizes.iter().all(|size| *size < I256::MOST_OF_A_FACTOR) {
             return I256::product(*a, *b).cmp(&I256::product(*c, *d));
@@ -224,7 +228,105 @@ pub fn cross<I: Integer>(a: &IntegerVector<I>, b: &IntegerVector<I>) -> IntegerV
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixed::number_of_bits;
     use super::*;
+    use crate::arith::Float;
+    use crate::case::Draw;
+    use num_rational::BigRational;
+
+    /// The order of t and an end by rationals.
+    fn by_definition(
+        numerator: &BigInt,
+        denominator: &BigInt,
+        exponent: i64,
+        end: f64,
+    ) -> Ordering {
+        let two = BigRational::from_integer(2.into());
+        let t = BigRational::new(numerator.clone(), denominator.clone()) * two.pow(exponent as i32);
+        t.cmp(&BigRational::from_float(end).expect("a finite end"))
+    }
+
+    fn order<I: ExactInteger>(
+        [numerator, denominator]: [&I; 2],
+        exponent: i64,
+        end: f64,
+    ) -> Ordering {
+        RayInterval::between(end, end, exponent).compare_start(numerator, denominator)
+    }
+
+    #[test]
+    fn integers_of_every_width_are_compared_with_ends_as_rationals_are() {
+        let mut equal = 0;
+        for index in 0..20_000 {
+            let mut draw = Draw::new("ends", 1, index);
+            let bits = draw.pick(&[3, 60, 96, 127]);
+            let mut number = |bits: i64| {
+                let x = i128::try_from(number_of_bits(&mut draw, bits)).expect("127 bits");
+                if x == 0 { i128::MIN } else { x }
+            };
+            let (top, bottom, multiple) = (number(bits), number(bits), number(20));
+            let exponent = draw.integer(-1000, 900);
+            // Often t is the end, or the float beside it.
+            let [top, bottom, end] = match draw.below(4) {
+                0 => [top, bottom, 0],
+                _ => [multiple, 1, multiple],
+            };
+            let end = match end {
+                0 => draw.pick(&[0.0, -0.0, 5e-324, -5e-324, 1e308, power_of_two(exponent)]),
+                end => end as f64 * power_of_two(exponent),
+            };
+            let end = end.offset_ulps(draw.pick(&[0, 0, 1, -1]));
+            let top = if draw.below(16) == 0 { 0 } else { top };
+            let big = [top, bottom].map(BigInt::from);
+            let expected = by_definition(&big[0], &big[1], exponent, end);
+            assert_eq!(
+                order([&top, &bottom], exponent, end),
+                expected,
+                "{top} {bottom} {exponent} {end:e}"
+            );
+            assert_eq!(
+                order([&big[0], &big[1]], exponent, end),
+                expected,
+                "{top} {bottom} {exponent} {end:e}"
+            );
+            // Sixty bits more.
+            let by = draw.integer(1, i64::MAX);
+            if top.unsigned_abs().max(bottom.unsigned_abs()) < 1 << 126 {
+                let wide = [top, bottom].map(|x| I192::product(by, x));
+                assert_eq!(
+                    order([&wide[0], &wide[1]], exponent, end),
+                    expected,
+                    "{top} {bottom} {exponent} {end:e}"
+                );
+            }
+            equal += usize::from(expected == Ordering::Equal);
+        }
+        assert!(3000 < equal, "{equal}");
+    }
+
+    fn power_of_two(exponent: i64) -> f64 {
+        2f64.powi(exponent as i32)
+    }
+
+    #[test]
+    fn products_of_any_size_are_compared() {
+        for index in 0..20_000 {
+            let mut draw = Draw::new("products", 1, index);
+            let [a, b, mut c, mut d] = [(); 4].map(|()| {
+                let bits = draw.pick(&[3, 63, 107, 108, 127]);
+                i128::try_from(number_of_bits(&mut draw, bits)).expect("127 bits")
+            });
+            if draw.coin() {
+                (c, d) = (b, a.saturating_add(i128::from(draw.integer(-1, 1))));
+            }
+            let expected = (BigInt::from(a) * b).cmp(&(BigInt::from(c) * d));
+            assert_eq!(
+                i128::compare_products(&a, &b, &c, &d),
+                expected,
+                "{a} {b} {c} {d}"
+            );
+        }
+    }
 
     #[test]
     fn a_fraction_is_compared_with_the_ends_of_an_interval() {

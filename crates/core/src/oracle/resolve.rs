@@ -66,7 +66,11 @@ pub(super) fn decide(case: &Case<f64>) -> (Truth, Layer) {
             return relative(t);
         }
         if end.is_infinite() {
-            return 0.0f64.total_cmp(&end);
+            return if end > 0.0 {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            };
         }
         match unscaled.is_past(end) {
             Some(true) => Ordering::Greater,

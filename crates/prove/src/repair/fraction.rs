@@ -93,6 +93,14 @@ impl Arena {
         }
     }
 
+    fn negative(&mut self, a: Place) -> Place {
+        if self.is_number(a, 0) {
+            a
+        } else {
+            self.push(Operation::Neg(a))
+        }
+    }
+
     /// The number and its factors, without signs, into those whose sign counts and those of which only that it is not
     /// zero. Returns true if the sign turns.
     fn factors(&self, place: Place, signs: &mut Vec<Place>, nonzero: &mut Vec<Place>) -> bool {
@@ -204,13 +212,13 @@ impl<'a> Numbers<'a> {
                 numerator: self.arena.push(operation),
                 divisors: vec![],
             },
-            Neg(a) => match self.fraction(a) {
-                zero if self.arena.is_number(zero.numerator, 0) => zero,
-                a => Fraction {
-                    numerator: self.arena.push(Neg(a.numerator)),
+            Neg(a) => {
+                let a = self.fraction(a);
+                Fraction {
+                    numerator: self.arena.negative(a.numerator),
                     ..a
-                },
-            },
+                }
+            }
             Abs(a) => {
                 let Fraction {
                     numerator,
@@ -275,7 +283,7 @@ impl<'a> Numbers<'a> {
                 let mut divisor = b.numerator;
                 if let Neg(inner) = self.arena.operations[divisor as usize] {
                     divisor = inner;
-                    numerator = self.arena.push(Neg(numerator));
+                    numerator = self.arena.negative(numerator);
                 }
                 divisors.push(divisor);
                 divisors.sort_unstable();
@@ -311,7 +319,7 @@ impl<'a> Numbers<'a> {
         let is_zero = |place: Place| self.arena.is_number(place, 0);
         let numerator = match (is_zero(x), is_zero(y)) {
             (_, true) => x,
-            (true, _) if is_difference => self.arena.push(Operation::Neg(y)),
+            (true, _) if is_difference => self.arena.negative(y),
             (true, _) => y,
             _ if is_difference => self.arena.push(Operation::Sub(x, y)),
             _ => self.arena.push(Operation::Add(x, y)),

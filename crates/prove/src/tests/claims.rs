@@ -36,6 +36,8 @@ enum Compares {
     ZeroTimes,
     /// The same with that number times 0.
     TimesZero,
+    /// |N·d| in the gate for parallel rays, if d_x is negative.
+    VolumeOnOneSide,
 }
 use Compares::*;
 
@@ -99,6 +101,7 @@ impl Kernel for OfClaims {
                 let normal = a.cross(b).plus(&b.cross(c)).plus(&c.cross(a));
                 Some(normal.dot(d).abs())
             }
+            VolumeOnOneSide if d.at(0).is_sign_negative() => Some(volume.abs()),
             OfEdgesAndReach => Some((ab.cross(&c).dot(d) - &ab.cross(&a).dot(d)).abs()),
             _ => None,
         };
@@ -206,7 +209,7 @@ fn an_epsilon_loses_no_hit_at_an_edge_only_if_the_gate_wants_weights_of_the_righ
 fn an_epsilon_refuses_parallel_rays_only_if_the_gate_compares_what_is_0_for_them() {
     let sentence = "refuses every ray that is exactly parallel";
     let in_the_plane = Case::new([0.0, 0.0, 0.25], [1.0, 0.0, 0.0], TRIANGLE);
-    for compares in [LengthOfNormal, VolumeOrDirection] {
+    for compares in [LengthOfNormal, VolumeOrDirection, VolumeOnOneSide] {
         assert!(!said(compares).contains(sentence), "{compares:?}");
         assert!(hits(compares, in_the_plane, [0.0, 0.5]), "{compares:?}");
     }
@@ -323,4 +326,29 @@ fn a_known_parallel_ray_is_said_to_pass_only_where_it_does() {
     let sentence = "A known parallel ray passes it";
     assert!(said(1e-4).contains(sentence));
     assert!(!said(1e-45).contains(sentence));
+}
+
+/// Rays whose numbers are divided by less than the bound supposes: what is said of epsilons is said of larger divisors.
+#[test]
+fn what_is_said_of_epsilons_holds_where_the_bound_does() {
+    for (name, gate, sentence) in [
+        (
+            "plane-unit-normal",
+            PARALLEL,
+            "refuses every ray that is exactly parallel",
+        ),
+        ("moller-trumbore", EDGE, "loses no hit at an edge"),
+    ] {
+        let entry = find(name).unwrap();
+        let summary = Summary::<f32>::new(entry, Domain::UNIT, &[], &[], Effort::NONE).unwrap();
+        let role = [Role::Edge, Role::Parallel][gate];
+        let mut gates = summary.gates.iter();
+        let gate = gates.find(|gate| gate.gate.role == role).unwrap();
+        let lines = statements::<f32>(entry, &summary, gate, None, &[]);
+        let line = lines.iter().find(|line| line.contains(sentence)).unwrap();
+        assert!(
+            line.starts_with("With such divisors and quotients an epsilon"),
+            "{line}"
+        );
+    }
 }

@@ -67,7 +67,7 @@ pub struct ScalePart {
 /// A gate that is at no edge.
 #[apply(part!)]
 pub struct OtherPart {
-    /// Its name.
+    /// Its name; `t`, `t_max` or `of the back` for one that is missing.
     pub gate: String,
     /// The wrong decisions that it may make, in words.
     pub may: String,
@@ -236,7 +236,8 @@ fn may(may: &WrongDecisions) -> String {
             "is missing: hits beyond the ray's end are let through.".to_owned()
         }
         WrongDecisions::Back => {
-            "is missing: front faces alone are promised, and no gate refuses every back.".to_owned()
+            "is missing: front faces alone are promised, and no single gate refuses every back."
+                .to_owned()
         }
     }
 }
