@@ -53,8 +53,8 @@ pub fn statements<F: Searched + Scalar>(
     } else {
         String::new()
     };
-    // Whatever follows from the bound holds where it does.
-    let there = if where_.is_empty() {
+    // Sentences about epsilons begin with it: what follows from the bound holds where the bound does.
+    let an = if where_.is_empty() {
         "An"
     } else {
         "With such divisors and quotients an"
@@ -90,13 +90,13 @@ pub fn statements<F: Searched + Scalar>(
     match gate.gate.role {
         _ if !gate.is_margin && !claims::compares_with_zero(summary, gate.index) => {}
         _ if !gate.is_margin => lines.push(format!(
-            "{there} epsilon of 0 decides otherwise than exact arithmetic only where the exact number is within {} of 0.",
+            "{an} epsilon of 0 decides otherwise than exact arithmetic only where the exact number is within {} of 0.",
             above(beta)
         )),
         Role::Parallel if tunable && claims::is_zero_of_parallel_rays(summary, gate.index) => {
             let mut sizes = BySize::new::<F>(entry, gate.index);
             let own = sizes.as_mut().filter(|_| gate.uses.is_of_edges_alone());
-            parallel(gate, scene, own, there, published, &mut lines);
+            parallel(gate, scene, own, beta, an, published, &mut lines);
             let sizes =
                 sizes.filter(|_| scene.is_none() && !gate.uses.floor && !gate.uses.extent);
             if let Some(mut sizes) = sizes {
@@ -106,19 +106,19 @@ pub fn statements<F: Searched + Scalar>(
             }
         }
         Role::Edge if claims::loses_no_hit(entry, summary, gate.index) => lines.push(format!(
-            "{there} epsilon below {} loses no hit at an edge.",
+            "{an} epsilon below {} loses no hit at an edge.",
             signed(-beta, false)
         )),
         Role::Edge => {}
         _ if tunable => {
             lines.push(format!(
-                "{there} epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
+                "{an} epsilon below -{0} loses nothing that the exact formula accepts; one above {0} accepts nothing \
                  that it refuses.",
                 above(beta)
             ));
             lines.extend(published.iter().map(|(name, value)| {
                 format!(
-                    "{there} epsilon of {name} refuses no exact value of {} and more, and accepts none of {} and less.",
+                    "{an} epsilon of {name} refuses no exact value of {} and more, and accepts none of {} and less.",
                     signed((value + beta).next_up(), true),
                     signed((value - beta).next_down(), false)
                 )
@@ -182,13 +182,11 @@ fn parallel<F: Searched + Scalar>(
     gate: &GateSummary<F>,
     scene: Option<Triangles>,
     own: Option<&mut BySize>,
-    there: &str,
+    beta: f64,
+    an: &str,
     published: &[Published],
     lines: &mut Vec<String>,
 ) {
-    let Ok(beta) = gate.bound.as_ref().map(|bound| rounded_up(*bound)) else {
-        return;
-    };
     let passes = gate.witnesses[1]
         .as_ref()
         .filter(|witness| witness.score > 0.0);
@@ -199,12 +197,12 @@ fn parallel<F: Searched + Scalar>(
         )
     });
     lines.push(format!(
-        "{there} epsilon above {} refuses every ray that is exactly parallel.{known}",
+        "{an} epsilon above {} refuses every ray that is exactly parallel.{known}",
         above(beta)
     ));
     let Some(Triangles { shapes, scene }) = scene else {
         lines.push(format!(
-            "{there} epsilon e refuses a hit only where the exact value is at most e + {}.",
+            "{an} epsilon e refuses a hit only where the exact value is at most e + {}.",
             above(beta)
         ));
         return;

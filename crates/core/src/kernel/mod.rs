@@ -11,6 +11,8 @@
 #![forbid(unsafe_code)]
 
 /// The preparation of most kernels: nothing is computed ahead of a ray.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! stores_triangle {
     () => {
         type Prepared<V: Vector> = Triangle<V>;

@@ -102,7 +102,7 @@ impl I256 {
         if (a < 0) == (b < 0) { size } else { -size }
     }
 
-    /// The absolute value.
+    /// The absolute value of any number but -2^255.
     #[inline(always)]
     pub(super) fn size(self) -> I256 {
         if self.high < 0 { -self } else { self }

@@ -4,7 +4,7 @@ use crate::arith::{Exact, Real, Vector};
 use crate::case::{Case, Draw, Ray, Triangle};
 use crate::contract::{Extent, Sides};
 use crate::kernel::{
-    Entry, Gate, Generic, Hit, Kernel, KernelIn, KernelInfo, Refuse, Role, Sink, find,
+    Entry, Gate, Generic, Hit, Kernel, KernelIn, KernelInfo, Refuse, Role, Scalar, Sink, find,
 };
 use crate::repair::{Answer, Guarded};
 use crate::{Domain, Effort, Proof, Sample, Summary, statements};
@@ -75,11 +75,7 @@ struct OfClaims;
 impl Kernel for OfClaims {
     const INFO: KernelInfo = info(Sides::Both);
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    hairline_core::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,
@@ -328,20 +324,51 @@ fn a_known_parallel_ray_is_said_to_pass_only_where_it_does() {
     assert!(!said(1e-45).contains(sentence));
 }
 
-/// Rays whose numbers are divided by less than the bound supposes: what is said of epsilons is said of larger divisors.
+/// Each ray is divided by less than the bound supposes, and contradicts the sentence without its supposition.
 #[test]
 fn what_is_said_of_epsilons_holds_where_the_bound_does() {
-    for (name, gate, sentence) in [
+    let parallel = Case::new(
+        [0.0; 3],
+        [0.84328145, -0.88634014, 0.67419237],
+        [
+            [0.0; 3],
+            [0.84328145, -0.88634014, 0.67419237],
+            [0.6575207, -0.6911172, 0.5256428],
+        ],
+    );
+    let inside = Case::new(
+        [0.23685193, 0.019915145, 0.3630145],
+        [-0.09413931, -0.11647581, 0.033050433],
+        [
+            [0.15445551, 0.0041171196, 0.3704322],
+            [0.13096973, -0.19723846, 0.42169765],
+            [-0.18233205, -0.14812094, 0.42272153],
+        ],
+    );
+    let zero = Exact::zero();
+    let exact = |case: &Case<f32>| {
+        let case = case.on(0.0, 1.0);
+        Sample::of(&case.numbers().map(|x| Exact::from_f64(f64::from(x))))
+    };
+    assert!(exact(&parallel).volume().is_zero());
+    let sample = exact(&inside);
+    assert!([0, 1, 2].iter().all(|i| zero.is_less(&sample.weight(*i))));
+    for (name, role, sentence, case) in [
         (
             "plane-unit-normal",
-            PARALLEL,
+            Role::Parallel,
             "refuses every ray that is exactly parallel",
+            parallel,
         ),
-        ("moller-trumbore", EDGE, "loses no hit at an edge"),
+        (
+            "moller-trumbore",
+            Role::Edge,
+            "loses no hit at an edge",
+            inside,
+        ),
     ] {
         let entry = find(name).unwrap();
         let summary = Summary::<f32>::new(entry, Domain::UNIT, &[], &[], Effort::NONE).unwrap();
-        let role = [Role::Edge, Role::Parallel][gate];
         let mut gates = summary.gates.iter();
         let gate = gates.find(|gate| gate.gate.role == role).unwrap();
         let lines = statements::<f32>(entry, &summary, gate, None, &[]);
@@ -350,5 +377,13 @@ fn what_is_said_of_epsilons_holds_where_the_bound_does() {
             line.starts_with("With such divisors and quotients an epsilon"),
             "{line}"
         );
+        let gated = f32::subject(entry).unwrap().gated().unwrap();
+        let margin = gated.measure(&case).margins[gate.index];
+        // The bounds are 1.65e-6 and 3.94e-6.
+        let contradicts = match role {
+            Role::Parallel => 1e-5 < margin,
+            _ => margin < -1e-5,
+        };
+        assert!(contradicts, "{name} {margin:e}");
     }
 }

@@ -56,11 +56,7 @@ impl Kernel for Sizes {
         ..KernelInfo::own("sizes", CULLING)
     };
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    hairline_core::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,

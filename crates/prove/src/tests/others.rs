@@ -87,11 +87,7 @@ struct OneGate;
 impl Kernel for OneGate {
     const INFO: KernelInfo = info(ON_BOTH);
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    hairline_core::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,

@@ -76,11 +76,7 @@ impl Kernel for Flat {
         ..KernelInfo::own("flat", Contract::CLOSED_RAY)
     };
 
-    type Prepared<V: Vector> = Triangle<V>;
-
-    fn prepare<V: Vector>(triangle: &Triangle<V>) -> Triangle<V> {
-        triangle.clone()
-    }
+    hairline_core::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,
