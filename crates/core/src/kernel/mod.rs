@@ -22,6 +22,8 @@ macro_rules! stores_triangle {
         }
     };
 }
+#[doc(hidden)]
+pub use stores_triangle;
 
 mod changed;
 mod entry;

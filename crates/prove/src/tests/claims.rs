@@ -75,7 +75,7 @@ struct OfClaims;
 impl Kernel for OfClaims {
     const INFO: KernelInfo = info(Sides::Both);
 
-    hairline_core::stores_triangle!();
+    crate::kernel::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,

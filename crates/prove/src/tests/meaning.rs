@@ -56,7 +56,7 @@ impl Kernel for Sizes {
         ..KernelInfo::own("sizes", CULLING)
     };
 
-    hairline_core::stores_triangle!();
+    crate::kernel::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,

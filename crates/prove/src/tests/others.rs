@@ -87,7 +87,7 @@ struct OneGate;
 impl Kernel for OneGate {
     const INFO: KernelInfo = info(ON_BOTH);
 
-    hairline_core::stores_triangle!();
+    crate::kernel::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,

@@ -76,7 +76,7 @@ impl Kernel for Flat {
         ..KernelInfo::own("flat", Contract::CLOSED_RAY)
     };
 
-    hairline_core::stores_triangle!();
+    crate::kernel::stores_triangle!();
 
     fn test<V: Vector, S: Sink<V::Real>>(
         triangle: &Triangle<V>,
