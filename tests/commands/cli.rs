@@ -98,7 +98,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
         let arguments = [
             "audit",
             "-n",
-            "3000",
+            "1000",
             "--family",
             "edge-near,fan,secondary-ray,range-ends",
             "--format",

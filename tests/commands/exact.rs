@@ -88,13 +88,13 @@ fn it_is_right_on_every_family_in_c_and_in_cpp_contracted_or_not() {
         let Some(library) = exact(name, edges, flags) else {
             return;
         };
-        let (record, _) = record(&["-n", "3000", "--kernel-lib", &library]);
+        let (record, _) = record(&["-n", "1000", "--kernel-lib", &library]);
         assert_eq!(wrong(&record), [""; 0], "{name}");
     }
     // It is not that nothing was asked: a plain kernel is wrong there, by the same contract.
     let plain = [
         "-n",
-        "3000",
+        "1000",
         "--kernel",
         "moller-trumbore",
         "--contract",
@@ -114,7 +114,7 @@ fn what_is_made_ready_first_is_as_right() {
         let Some(library) = built("prepared", name, edges, flags) else {
             return;
         };
-        let (record, _) = record(&["-n", "3000", "--kernel-lib", &library]);
+        let (record, _) = record(&["-n", "1000", "--kernel-lib", &library]);
         assert_eq!(wrong_beyond(&record, 2f64.powi(-22)), [""; 0], "{name}");
     }
 }
@@ -213,7 +213,7 @@ fn the_form_for_floats_alone_is_right_and_takes_little_stack() {
         let Some(library) = exact(name, edges, &flags) else {
             return;
         };
-        let all = ["-n", "3000", "--scalar", "f32", "--kernel-lib", &library];
+        let all = ["-n", "1000", "--scalar", "f32", "--kernel-lib", &library];
         let (record, _) = record(&all);
         assert_eq!(wrong(&record), [""; 0], "{name}");
         let results = record["result"]["results"].as_array().unwrap();

@@ -181,7 +181,7 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
     const PLAIN: &[&str] = &[];
     let mesh = format!("{HOSTILE}.obj");
     let corpus = format!("{HOSTILE}.jsonl");
-    let on_mesh = "--kernel cramer,moller-trumbore -n 50 --mesh MESH";
+    let on_mesh = "--kernel cramer,moller-trumbore -n 20 --mesh MESH";
     let lines: &[(&str, &'static [&'static str])] = &[
         (&format!("audit {on_mesh}"), REPORT),
         (&format!("audit --details {on_mesh}"), &["text", "markdown"]),
@@ -193,13 +193,13 @@ fn commands(digest: &str) -> Vec<(Vec<String>, &'static [&'static str])> {
             &format!("check {on_mesh} --expectations known.toml"),
             REPORT,
         ),
-        ("offset -n 50 --mesh MESH", PAGE),
+        ("offset -n 20 --mesh MESH", PAGE),
         ("mesh MESH --kernel cramer", REPORT),
         (
-            "prove --mesh MESH --distance 9 --kernel cramer --scalar f32",
+            "prove --mesh MESH --distance 9 --kernel cramer --scalar f32 -n 0",
             PAGE,
         ),
-        ("repair --mesh MESH --kernel cramer -n 50", PLAIN),
+        ("repair --mesh MESH --kernel cramer -n 20", PLAIN),
         ("prove --check proof.txt", PLAIN),
         ("audit --corpus markup.jsonl --kernel cramer", REPORT),
         ("check --corpus markup.jsonl --kernel cramer", REPORT),

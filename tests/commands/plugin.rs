@@ -1252,7 +1252,7 @@ fn a_campaign_goes_on_however_often_a_kernel_crashes() {
         "fuzz",
         folder.to_str().unwrap(),
         "-n",
-        "600",
+        "200",
         "-q",
         "--kernel-cmd",
     ];
@@ -1732,7 +1732,7 @@ fn ten_ways_to_be_wrong_are_noticed_by_check() {
         let flags = [
             "check",
             "-n",
-            "200",
+            "80",
             "--expectations",
             &known,
             "--kernel-lib",

@@ -518,7 +518,15 @@ fn a_scene_has_the_words_that_it_has_for_samples() {
 
 #[test]
 fn of_an_epsilon_of_ones_own_it_is_said_what_is_proved() {
-    let kernel = ["prove", "--kernel", "moller-trumbore", "--scalar", "f32"];
+    let kernel = [
+        "prove",
+        "--kernel",
+        "moller-trumbore",
+        "--scalar",
+        "f32",
+        "-n",
+        "0",
+    ];
     let words = |epsilon: &str| {
         let out = text(&[&kernel[..], &["--epsilon", epsilon]].concat());
         out.split_whitespace().collect::<Vec<_>>().join(" ")

@@ -73,7 +73,7 @@ impl Numbers {
 fn corpus(file: &Path) {
     let mut numbers = Numbers(7);
     let mut text = String::new();
-    for number in 0..480 {
+    for number in 0..240 {
         let [a, b, c] = [(); 3].map(|()| numbers.vector(4.0));
         let weights = [(); 3].map(|()| 1.2 + numbers.next());
         let sum: f64 = weights.iter().sum();
@@ -217,7 +217,7 @@ fn a_miss_that_is_told_as_a_t_is_named() {
             &["--scene", "room"],
         ] {
             let run = [
-                &["audit", "-q", "-n", "500", "--kernel-lib", &library],
+                &["audit", "-q", "-n", "200", "--kernel-lib", &library],
                 plan,
             ]
             .concat();

@@ -153,7 +153,8 @@ int main(void) {
 
 /// The answers of hairline's own run, as the program writes them.
 fn own<F: Scalar + Searched>(guarded: &Guarded, cases: &[Case<F>]) -> Vec<[f64; 3]> {
-    let answer = |case| match guarded.answer::<F>(case) {
+    let ready = guarded.ready::<F>();
+    let answer = |case| match ready.answer(case) {
         Answer::Miss => [0.0; 3],
         Answer::Ask => [2.0, 0.0, 0.0],
         Answer::Hit([_, u, v]) => [1.0, u.unwrap().to_f64(), v.unwrap().to_f64()],

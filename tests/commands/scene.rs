@@ -99,7 +99,7 @@ fn a_study_is_the_same_on_any_number_of_threads_and_for_each_scalar_alone() {
             "--scene",
             "extent=10, edge=0.1..1, distance=0..5",
             "-n",
-            "3000",
+            "1000",
             "-q",
         ]);
         all.extend(more);

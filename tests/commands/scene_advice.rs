@@ -514,7 +514,7 @@ fn where_its_limits_meet_a_number_is_well_inside_them_under_every_seed() {
     for (kernel, scene) in kernels {
         for seed in ["1", "4", "6"] {
             let more = [
-                "--scalar", "f64", "-n", "5000", "--seed", seed, "--format", "json", "-q",
+                "--scalar", "f64", "-n", "2500", "--seed", seed, "--format", "json", "-q",
             ];
             let study = ["epsilon", "--kernel", kernel, "--scene", scene];
             let (out, _) = ends(&folder, &[&study[..], &more[..]].concat(), 0);

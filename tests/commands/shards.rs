@@ -17,7 +17,7 @@ const PLAN: &[&str] = &[
     "--corpus",
     "c.jsonl",
     "-n",
-    "1500",
+    "200",
     "--attribute",
     "20",
     "-q",

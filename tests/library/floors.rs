@@ -37,8 +37,8 @@ const ROOMS: [Room; 19] = [
     room("crates/files/src", Some("files"), 24_560),
     room("crates/cases/src", None, 46_060),
     // With chains of gates, which the run of a guarded kernel and its emitted code share (issue 64), and with what has to be known of a
-    // gate before a sentence is said of it.
-    room("crates/prove/src", Some("prove"), 73_110),
+    // gate before a sentence is said of it. With what a guarded kernel looks up once for all its cases (issue 61).
+    room("crates/prove/src", Some("prove"), 73_880),
     // With the cases and the names of a source in files of their own: each has its imports.
     room("crates/study/src", None, 81_340),
     room("crates/advice/src", None, 41_900),
@@ -55,7 +55,7 @@ const ROOMS: [Room; 19] = [
     room("crates/expect/src", Some("expect"), 17_800),
     room("crates/vectors/src", Some("vectors"), 11_960),
     // With the names of numbers in a file of their own, and with one comparison for gates in a row (issue 64).
-    room("crates/repair/src", Some("repair"), 18_110),
+    room("crates/repair/src", Some("repair"), 18_120),
     // The parts that all commands share came out of src.
     room("crates/command/src", Some("command"), 12_100),
     // With issue 61: studies of one test that are reported under several names, and lines that say what slow commands do.
@@ -468,4 +468,62 @@ fn files_that_the_lab_takes_from_the_crates_are_there() {
         }
     }
     assert_eq!(taken, 3);
+}
+
+/// The languages of code in comments that rustdoc would test: none is named, or Rust.
+fn has_doc_tests(text: &str) -> bool {
+    let mut is_inside = false;
+    for line in text.lines() {
+        let comment = line
+            .trim_start()
+            .trim_start_matches("//")
+            .trim_start_matches(['/', '!']);
+        let Some(language) = comment.trim_start().strip_prefix("```") else {
+            continue;
+        };
+        if !is_inside && matches!(language.trim(), "" | "rust" | "no_run" | "should_panic") {
+            return true;
+        }
+        is_inside = !is_inside;
+    }
+    false
+}
+
+/// Manifests turn off what takes time to build and runs nothing.
+#[test]
+fn a_crate_whose_tests_are_turned_off_has_none() {
+    let mut turned_off = 0;
+    for folder in CRATES {
+        let manifest = fs::read_to_string(source(folder).join("../Cargo.toml")).unwrap();
+        let library = manifest.split("\n[lib]\n").nth(1).unwrap_or_default();
+        let library = library.split("\n[").next().unwrap();
+        let is_off = |what: &str| {
+            library
+                .lines()
+                .any(|line| line == format!("{what} = false"))
+        };
+        for (file, _) in rust_files(folder) {
+            let text = fs::read_to_string(&file).unwrap();
+            let has_tests = text.contains("#[test]") || text.contains("proptest! {");
+            assert!(!(is_off("test") && has_tests), "{}", file.display());
+            assert!(
+                !(is_off("doctest") && has_doc_tests(&text)),
+                "{}",
+                file.display()
+            );
+        }
+        turned_off += usize::from(is_off("test")) + usize::from(is_off("doctest"));
+    }
+    assert!(0 < turned_off);
+}
+
+#[test]
+fn code_in_comments_is_a_test_unless_it_says_otherwise() {
+    assert!(has_doc_tests("/// ```\n/// f();\n/// ```"));
+    assert!(has_doc_tests(
+        "//! ```text\n//! x\n//! ```\n//! ```rust\n//! ```"
+    ));
+    assert!(!has_doc_tests(
+        "//! ```text\n//! x\n//! ```\nlet text = \"```\";"
+    ));
 }

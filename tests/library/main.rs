@@ -23,6 +23,7 @@ mod prove;
 mod response;
 mod rounded;
 mod scenes;
+mod sentences;
 mod severity;
 mod shrink;
 mod strategy;

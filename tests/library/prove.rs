@@ -139,7 +139,7 @@ fn numbers<F: Float>(witness: &serde_json::Value) -> [F; 17] {
 }
 
 /// The values of a path's program at inputs, in floats of 53 digits; of the path that the kernel takes there.
-fn taken<F: Searched + Scalar>(paths: &[Path], inputs: &[F; 17]) -> (usize, Vec<f64>) {
+pub fn taken<F: Searched + Scalar>(paths: &[Path], inputs: &[F; 17]) -> (usize, Vec<f64>) {
     let is_taken = |path: &&Path| {
         let mut values = Vec::new();
         run(&path.operations, inputs, &mut values);

@@ -1,8 +1,9 @@
 //! The answers of a guarded kernel: its program run on floats.
 
-use super::super::{Dyadic, Searched, run::run};
-use super::{Axes, Chain, Guarded, Literal, Pattern, Step};
-use crate::arith::recorded::{Comparison, Operation, Place};
+use super::super::{Searched, run::run};
+use super::ready::{Ready, ReadyStep, Size};
+use super::{Axes, Chain, Literal, Pattern};
+use crate::arith::recorded::{Comparison, Place};
 use crate::arith::{Float, Real};
 use crate::case::Case;
 use crate::contract::Extent;
@@ -20,28 +21,22 @@ pub enum Answer<F> {
 
 /// A run on one case.
 struct Run<'a, F> {
-    guarded: &'a Guarded,
+    ready: &'a Ready<'a, F>,
     inputs: [F; 17],
     /// True for t_min and t_max if they are farther than what stands for them.
     clamped: [bool; 2],
-    /// The least margin of any sign.
-    tiny: F,
     values: Vec<F>,
     /// The sum of the sizes of each number's products.
     sizes: Vec<F>,
 }
 
-fn float<F: Float>(x: Dyadic) -> F {
-    F::from_f64(x.to_f64())
-}
-
-impl Guarded {
-    /// The answer to a case in its scalar.
-    pub fn answer<F: Searched>(&self, case: &Case<F>) -> Answer<F> {
-        let far = float::<F>(self.scale.far);
+impl<F: Searched> Ready<'_, F> {
+    /// The answer to a case.
+    pub fn answer(&self, case: &Case<F>) -> Answer<F> {
+        let far = self.far;
         let near = case.ray.t_min;
         let end = case.ray.t_max;
-        let is_interval = self.info.contract.extent == Extent::Interval;
+        let is_interval = self.guarded.info.contract.extent == Extent::Interval;
         if is_interval && !(near <= end && near <= far && end >= -far) {
             return Answer::Ask;
         }
@@ -54,26 +49,14 @@ impl Guarded {
         inputs[15] = if clamped[0] { -far } else { near };
         inputs[16] = if clamped[1] { far } else { end };
         let mut run = Run {
-            guarded: self,
+            ready: self,
             inputs,
             clamped,
-            tiny: float(self.scale.tiny),
             values: Vec::new(),
             sizes: Vec::new(),
         };
         run.compute();
-        run.answer(&self.steps)
-    }
-
-    /// True if a number is made from t_min, or from t_max.
-    pub fn uses_end(&self, place: Place, end: u8) -> bool {
-        match self.operations[place as usize] {
-            Operation::Input(i) => i == 15 + end,
-            operation => {
-                let mut operands = operation.operands().into_iter();
-                operands.any(|operand| self.uses_end(operand, end))
-            }
-        }
+        run.answer()
     }
 }
 
@@ -90,55 +73,54 @@ enum Decision {
 }
 
 impl<F: Float> Run<'_, F> {
-    fn answer(mut self, steps: &Step) -> Answer<F> {
-        let mut step = steps;
+    fn answer(mut self) -> Answer<F> {
+        let ready = self.ready;
+        let mut number = ready.steps.len() - 1;
         let mut is_open = false;
         loop {
-            step = match step {
-                Step::Choice(comparison, yes, no) => {
+            number = match &ready.steps[number] {
+                ReadyStep::Choice(comparison, [yes, no]) => {
                     if self.compare(comparison) {
-                        yes
+                        *yes
                     } else {
-                        no
+                        *no
                     }
                 }
-                Step::Sign(literal, yes, no) => {
+                ReadyStep::Sign(literal, opposite, [yes, no]) => {
                     if self.holds(literal) {
-                        yes
-                    } else if self.holds(&literal.negated()) {
-                        no
+                        *yes
+                    } else if self.holds(opposite) {
+                        *no
                     } else {
                         return Answer::Ask;
                     }
                 }
-                Step::Gate(_, [hits, misses], next) => {
-                    if let Some(chain) = self.guarded.chain(step) {
-                        match self.decision(&chain) {
-                            Decision::Accept => {}
-                            Decision::Open => is_open = true,
-                            Decision::Miss => return Answer::Miss,
-                            Decision::Ask => return Answer::Ask,
-                        }
-                        step = chain.next;
-                        continue;
+                ReadyStep::Chain(chain, next) => {
+                    match self.decision(chain) {
+                        Decision::Accept => {}
+                        Decision::Open => is_open = true,
+                        Decision::Miss => return Answer::Miss,
+                        Decision::Ask => return Answer::Ask,
                     }
+                    *next
+                }
+                ReadyStep::Gate([hits, misses], next) => {
                     if misses.iter().any(|pattern| self.rejects(pattern)) {
                         return Answer::Miss;
                     }
-                    is_open |= !hits
-                        .iter()
-                        .any(|pattern| pattern.iter().all(|it| self.holds(it)));
-                    next
+                    let accepts = |pattern: &Pattern| pattern.iter().all(|it| self.holds(it));
+                    is_open |= !hits.iter().any(accepts);
+                    *next
                 }
-                Step::Axes(axes, next) => {
+                ReadyStep::Axes(axes, next) => {
                     self.rename(axes);
-                    next
+                    *next
                 }
-                Step::Hit(_) if is_open => return Answer::Ask,
-                Step::Hit(values) => {
+                ReadyStep::Hit(_) if is_open => return Answer::Ask,
+                ReadyStep::Hit(values) => {
                     return Answer::Hit(values.map(|place| place.map(|place| self.value(place))));
                 }
-                Step::Ask => return Answer::Ask,
+                ReadyStep::Ask => return Answer::Ask,
             }
         }
     }
@@ -162,7 +144,7 @@ impl<F: Float> Run<'_, F> {
         let (Some(least), Some(size)) = (least, size) else {
             return Decision::Open;
         };
-        let margin = F::from_f64(chain.factor) * size + self.tiny;
+        let margin = F::from_f64(chain.factor) * size + self.ready.tiny;
         if least > margin {
             Decision::Accept
         } else if least < -margin && !self.is_clamped(chain.places().into_iter()) {
@@ -205,8 +187,8 @@ impl<F: Float> Run<'_, F> {
     /// True if some numbers are made from an end that another number stands for: it proves no miss.
     fn is_clamped(&self, mut places: impl Iterator<Item = Place>) -> bool {
         places.any(|place| {
-            let uses = |end: u8| self.guarded.uses_end(place, end);
-            (0..2).any(|end| self.clamped[usize::from(end)] && uses(end))
+            let used = self.ready.ends[place as usize];
+            (0..2).any(|end| self.clamped[end] && used[end])
         })
     }
 
@@ -221,12 +203,12 @@ impl<F: Float> Run<'_, F> {
 
     /// -1 or 1 if the sign is right, else 0.
     fn sign(&self, place: Place) -> i8 {
-        let margin = self.guarded.margins[&place];
+        let factor = self.ready.factors[place as usize];
+        let factor = factor.expect("a sign that decides has a margin");
         let x = self.value(place);
         let mut least = F::zero();
-        if !margin.factor.is_zero() {
-            let size = self.sizes[place as usize];
-            least = float::<F>(margin.factor) * size + self.tiny;
+        if factor != F::zero() {
+            least = factor * self.sizes[place as usize] + self.ready.tiny;
         }
         i8::from(x > least && x.is_finite()) - i8::from(x < -least && x.is_finite())
     }
@@ -237,34 +219,28 @@ impl<F: Float> Run<'_, F> {
 
     /// Computes all numbers and their sizes.
     fn compute(&mut self) {
-        let Run {
-            guarded,
-            inputs,
-            values,
-            sizes,
-            ..
-        } = self;
-        let margins = guarded.sizes();
-        let slack = float::<F>(guarded.scale.slack);
-        run(&guarded.operations, inputs, values);
-        sizes.clear();
-        for (place, operation) in (0..).zip(&guarded.operations) {
-            let of = |place: Place| sizes[place as usize];
-            let factor = |place: Place| {
-                if margins.needs_slack(place) {
-                    of(place) + slack
-                } else {
-                    of(place)
+        let Ready { guarded, slack, .. } = self.ready;
+        run(&guarded.operations, &self.inputs, &mut self.values);
+        self.sizes.clear();
+        for (size, value) in self.ready.sizes.iter().zip(&self.values) {
+            let of = |place: Place| self.sizes[place as usize];
+            let size = match *size {
+                Size::OfLeaf => Real::abs(value),
+                Size::Same(a) => of(a),
+                Size::Sum(a, b) => of(a) + of(b),
+                Size::Product(factors) => {
+                    let [a, b] = factors.map(|(place, has_slack)| {
+                        if has_slack {
+                            of(place) + *slack
+                        } else {
+                            of(place)
+                        }
+                    });
+                    a * b
                 }
+                Size::None => F::zero(),
             };
-            sizes.push(match *operation {
-                _ if guarded.is_leaf(place) => Real::abs(&values[place as usize]),
-                Operation::Add(a, b) | Operation::Sub(a, b) => of(a) + of(b),
-                Operation::Mul(a, b) => factor(a) * factor(b),
-                Operation::Neg(a) | Operation::Abs(a) => of(a),
-                // It has no margin.
-                _ => F::zero(),
-            });
+            self.sizes.push(size);
         }
     }
 }

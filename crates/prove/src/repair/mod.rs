@@ -4,6 +4,7 @@ mod answer;
 mod chain;
 mod fraction;
 mod margin;
+mod ready;
 mod steps;
 mod text;
 
@@ -11,6 +12,7 @@ pub use answer::Answer;
 pub use chain::Chain;
 pub use fraction::Literal;
 pub use margin::{Margin, Margins, Scale};
+pub use ready::Ready;
 pub use steps::{Axes, Pattern, Step};
 
 use super::checker;
