@@ -5,8 +5,7 @@ use crate::tools::has;
 use hairline::internals::case::{Case, Parameters};
 use hairline::internals::family::FAMILIES;
 use hairline::internals::kernel::{Scalar, find};
-use hairline::internals::prove::Searched;
-use hairline::internals::prove::repair::{Answer, Guarded};
+use hairline::internals::prove::repair::{Answer, Answered, Guarded};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -152,9 +151,9 @@ int main(void) {
 ";
 
 /// The answers of hairline's own run, as the program writes them.
-fn own<F: Scalar + Searched>(guarded: &Guarded, cases: &[Case<F>]) -> Vec<[f64; 3]> {
+fn own<F: Scalar + Answered>(guarded: &Guarded, cases: &[Case<F>]) -> Vec<[f64; 3]> {
     let ready = guarded.ready::<F>();
-    let answer = |case| match ready.answer(case) {
+    let answer = |case| match F::answer(&ready, case) {
         Answer::Miss => [0.0; 3],
         Answer::Ask => [2.0, 0.0, 0.0],
         Answer::Hit([_, u, v]) => [1.0, u.unwrap().to_f64(), v.unwrap().to_f64()],
@@ -162,7 +161,7 @@ fn own<F: Scalar + Searched>(guarded: &Guarded, cases: &[Case<F>]) -> Vec<[f64; 
     cases.iter().map(answer).collect()
 }
 
-fn is_alike<F: Scalar + Searched>(
+fn is_alike<F: Scalar + Answered>(
     kernel: &str,
     bytes: impl Fn(F) -> Vec<u8>,
     numbers: impl Fn(&[u8]) -> Vec<f64>,

@@ -4,8 +4,7 @@ use crate::audit::Source;
 use crate::engine::{Merge, Observer, sum};
 use crate::family::Family;
 use crate::kernel::Scalar;
-use crate::prove::Searched;
-use crate::prove::repair::{Answer, Guarded};
+use crate::prove::repair::{Answer, Answered, Guarded};
 use hairline_report::page::{Block, Cell, Head, Row, Table};
 
 /// How many rays got each answer: hit, miss, ask.
@@ -29,7 +28,7 @@ pub struct Asks {
 
 impl Asks {
     /// Counts the answers to the rays of some sources.
-    pub fn count<F: Scalar + Searched>(
+    pub fn count<F: Scalar + Answered>(
         guarded: &Guarded,
         sources: &[(&'static Family, Source)],
         observer: &dyn Observer,
@@ -44,7 +43,7 @@ impl Asks {
                 |sum, indices| {
                     for index in indices {
                         for case in source.make::<F>(index).cases() {
-                            let place = match ready.answer(case) {
+                            let place = match F::answer(&ready, case) {
                                 Answer::Hit(_) => 0,
                                 Answer::Miss => 1,
                                 Answer::Ask => 2,

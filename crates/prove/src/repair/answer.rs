@@ -30,9 +30,26 @@ struct Run<'a, F> {
     sizes: Vec<F>,
 }
 
-impl<F: Searched> Ready<'_, F> {
+/// A scalar in which guarded kernels answer. Its answers are compiled here: this crate is optimised, those that ask are not.
+pub trait Answered: Searched {
     /// The answer to a case.
-    pub fn answer(&self, case: &Case<F>) -> Answer<F> {
+    fn answer(ready: &Ready<Self>, case: &Case<Self>) -> Answer<Self>;
+}
+
+impl Answered for f32 {
+    fn answer(ready: &Ready<f32>, case: &Case<f32>) -> Answer<f32> {
+        ready.decide(case)
+    }
+}
+
+impl Answered for f64 {
+    fn answer(ready: &Ready<f64>, case: &Case<f64>) -> Answer<f64> {
+        ready.decide(case)
+    }
+}
+
+impl<F: Searched> Ready<'_, F> {
+    fn decide(&self, case: &Case<F>) -> Answer<F> {
         let far = self.far;
         let near = case.ray.t_min;
         let end = case.ray.t_max;

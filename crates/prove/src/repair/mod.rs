@@ -8,7 +8,7 @@ mod ready;
 mod steps;
 mod text;
 
-pub use answer::Answer;
+pub use answer::{Answer, Answered};
 pub use chain::Chain;
 pub use fraction::Literal;
 pub use margin::{Margin, Margins, Scale};

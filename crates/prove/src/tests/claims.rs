@@ -6,7 +6,7 @@ use crate::contract::{Extent, Sides};
 use crate::kernel::{
     Entry, Gate, Generic, Hit, Kernel, KernelIn, KernelInfo, Refuse, Role, Scalar, Sink, find,
 };
-use crate::repair::{Answer, Guarded};
+use crate::repair::{Answer, Answered, Guarded};
 use crate::{Domain, Effort, Proof, Sample, Summary, statements};
 use hairline_core::{Contract, Verdict};
 use std::cell::Cell;
@@ -295,7 +295,7 @@ fn no_margin_is_lost(compares: Compares) {
         let zero = Exact::zero();
         let is_front = exact.volume().is_less(&zero);
         let is_inside = [0, 1, 2].iter().all(|i| zero.is_at_most(&exact.weight(*i)));
-        match ready.answer(&case) {
+        match f32::answer(&ready, &case) {
             Answer::Ask => continue,
             Answer::Hit(_) => assert!(is_front && is_inside, "{}", case.hex()),
             Answer::Miss => assert!(!(is_front && is_inside), "{}", case.hex()),
