@@ -61,7 +61,7 @@ pub use order::{is_at_most, is_impossible};
 pub use others::{End, Other, WrongDecisions};
 pub use permanent::{Relative, Roundings, relative};
 pub use rounded::{above, below, units};
-pub use run::run;
+pub use run::{parts, run};
 pub use scene::{Scene, Shape};
 pub use sizes::BySize;
 pub use statement::{Published, Triangles, about_edges, statements};

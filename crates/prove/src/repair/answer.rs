@@ -30,7 +30,8 @@ struct Run<'a, F> {
     sizes: Vec<F>,
 }
 
-/// A scalar in which guarded kernels answer. Its answers are compiled here: this crate is optimised, those that ask are not.
+/// A scalar in which guarded kernels answer. Both have their own code here, because this crate is optimised and those that ask are
+/// not.
 pub trait Answered: Searched {
     /// The answer to a case.
     fn answer(ready: &Ready<Self>, case: &Case<Self>) -> Answer<Self>;

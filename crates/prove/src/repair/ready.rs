@@ -6,7 +6,7 @@ use crate::arith::Float;
 use crate::arith::recorded::{Comparison, Operation, Place};
 
 /// A step by the number of what follows it.
-pub enum ReadyStep<'a> {
+pub(super) enum ReadyStep<'a> {
     /// [`Step::Choice`].
     Choice(&'a Comparison, [usize; 2]),
     /// [`Step::Sign`], with the opposite condition.
@@ -25,7 +25,7 @@ pub enum ReadyStep<'a> {
 
 /// How the size of a number, the sum of the sizes of its products, is computed.
 #[derive(Clone, Copy)]
-pub enum Size {
+pub(super) enum Size {
     /// Its own absolute value.
     OfLeaf,
     /// That of another number.
@@ -41,21 +41,21 @@ pub enum Size {
 /// A guarded kernel in its scalar.
 pub struct Ready<'a, F> {
     /// The kernel.
-    pub guarded: &'a Guarded,
+    pub(super) guarded: &'a Guarded,
     /// Its steps; what follows a step stands before it, the first one is the last.
-    pub steps: Vec<ReadyStep<'a>>,
+    pub(super) steps: Vec<ReadyStep<'a>>,
     /// How the size of each number is computed.
-    pub sizes: Vec<Size>,
+    pub(super) sizes: Vec<Size>,
     /// The factor of each number's margin; none if its sign is not asked for.
-    pub factors: Vec<Option<F>>,
+    pub(super) factors: Vec<Option<F>>,
     /// True for t_min and t_max where a number is made from them.
-    pub ends: Vec<[bool; 2]>,
+    pub(super) ends: Vec<[bool; 2]>,
     /// [`Scale`](super::Scale) in floats.
-    pub slack: F,
+    pub(super) slack: F,
     /// The least margin of any sign.
-    pub tiny: F,
+    pub(super) tiny: F,
     /// Ends of the ray beyond it count as it.
-    pub far: F,
+    pub(super) far: F,
 }
 
 fn float<F: Float>(x: Dyadic) -> F {
