@@ -5,7 +5,8 @@
 
 use crate::plugin::library;
 use crate::program::scratch;
-use std::path::PathBuf;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const HERE: &str = env!("CARGO_MANIFEST_DIR");
@@ -35,14 +36,14 @@ fn faults() -> Vec<String> {
 
 /// The exit code and the screen of a check of the kernel with a fault, where nothing is known yet. In floats: the values of
 /// the right kernel are not correctly rounded in double (docs/guide/exact.md), so there its verdicts alone are right.
-fn check(library: &str, fault: &str, plan: &[&str]) -> (Option<i32>, String) {
+fn check(folder: &Path, library: &str, fault: &str, plan: &[&str]) -> (Option<i32>, String) {
     let scalar = if fault == NARROW { "f64" } else { "f32" };
     let flags = ["check", "-q", "--scalar", scalar, "--kernel-lib", library];
     let output = Command::new(env!("CARGO_BIN_EXE_hairline"))
         .args(flags)
         .args(plan)
         .env("WRONG_KERNEL", fault)
-        .current_dir(scratch("wrong-kernels"))
+        .current_dir(folder)
         .output()
         .unwrap();
     let screen = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -62,27 +63,30 @@ fn every_wrong_kernel_fails_the_default_plan() {
     let Some(library) = library(&source, "wrong-kernels", &flags) else {
         return;
     };
+    let folder = scratch("wrong-kernels");
     let faults = faults();
     assert!(80 < faults.len(), "{}", faults.len());
     let few = ["-n", FEW];
-    let (code, screen) = check(&library, "", &few);
+    let (code, screen) = check(&folder, &library, "", &few);
     assert_eq!(code, Some(0), "{screen}");
-    let passes =
-        |fault: &&String| fault.as_str() != LATE && check(&library, fault, &few).0 != Some(1);
-    let passed: Vec<&String> = faults.iter().filter(passes).collect();
+    let passes = |fault: &&String| {
+        fault.as_str() != LATE && check(&folder, &library, fault, &few).0 != Some(1)
+    };
+    // This test is the last one, and would leave all cores but one without work.
+    let passed: Vec<&String> = faults.par_iter().filter(passes).collect();
     assert_eq!(passed, [""; 0]);
-    let (_, screen) = check(&library, NARROW, &few);
+    let (_, screen) = check(&folder, &library, NARROW, &few);
     assert!(screen.contains("false-miss"), "{screen}");
     // It takes a whole batch, as the usual plan has.
     let whole = ["-n", "1024", "--family", "interior"];
-    assert_eq!(check(&library, "", &whole).0, Some(0));
-    let (code, screen) = check(&library, LATE, &whole);
+    assert_eq!(check(&folder, &library, "", &whole).0, Some(0));
+    let (code, screen) = check(&folder, &library, LATE, &whole);
     assert_eq!(code, Some(1), "{screen}");
     // The recommended plan has the same families, with the same cases: some of the faults stand for all.
-    let (code, screen) = check(&library, "", &RECOMMENDED);
+    let (code, screen) = check(&folder, &library, "", &RECOMMENDED);
     assert_eq!(code, Some(0), "{screen}");
-    for fault in faults.iter().step_by(10) {
-        let (code, screen) = check(&library, fault, &RECOMMENDED);
+    faults.par_iter().step_by(10).for_each(|fault| {
+        let (code, screen) = check(&folder, &library, fault, &RECOMMENDED);
         assert_eq!(code, Some(1), "{fault}: {screen}");
-    }
+    });
 }

@@ -22,6 +22,7 @@ mod proofs;
 mod prove;
 mod response;
 mod rounded;
+mod scene_sentences;
 mod scenes;
 mod sentences;
 mod severity;

@@ -18,7 +18,7 @@ const BELOW_ONE: f64 = 1.0 - 1.0 / 1024.0;
 
 /// What a sentence says of a gate's margin m, the largest epsilon e that accepts, and of its exact value x.
 #[derive(Debug)]
-enum Says {
+pub enum Says {
     /// No number that is compared is wrong by more than this.
     Error(f64),
     /// m is at most this for rays that are exactly parallel.
@@ -39,9 +39,28 @@ enum Says {
     },
     /// m and x are on the same side of 0, unless the exact value of a number that is compared is at most this.
     SignUnlessWithin(f64),
+    /// m is below `epsilon` for parallel rays at triangles with edges up to this, and at least that for hits at `degrees` to the
+    /// plane and more, if there are any.
+    OfScene {
+        epsilon: f64,
+        parallel_up_to: f64,
+        degrees: Option<f64>,
+    },
 }
 
 impl Says {
+    /// False of a sentence in a scene that no ray could contradict.
+    pub fn says_something(&self) -> bool {
+        !matches!(
+            self,
+            Says::OfScene {
+                parallel_up_to: 0.0,
+                degrees: None,
+                ..
+            }
+        )
+    }
+
     /// The ray with lengths times a power of two, as large as the sentence goes; none if the sentence says nothing of it, or a
     /// float underflows.
     fn in_its_size<F: Scalar>(&self, drawn: &Drawn<F>) -> Option<Inputs> {
@@ -65,11 +84,11 @@ impl Says {
     }
 }
 
-struct Sentence {
-    says: Says,
+pub struct Sentence {
+    pub says: Says,
     /// It begins by what is supposed of divisors and quotients, or ends with it.
     supposes: bool,
-    text: String,
+    pub text: String,
 }
 
 /// The number after some words.
@@ -80,7 +99,7 @@ fn after(text: &str, words: &str) -> Option<f64> {
 }
 
 /// Reads a sentence. A sentence that no test knows fails, so that none is added without one.
-fn read(line: &str, published: &[Published]) -> Option<Sentence> {
+pub fn read(line: &str, published: &[Published]) -> Option<Sentence> {
     let epsilon_of = |name: &str| {
         let mut named = published.iter().filter(|(other, _)| other == name);
         named.next().expect("an epsilon that was asked for").1
@@ -137,10 +156,50 @@ fn read(line: &str, published: &[Published]) -> Option<Sentence> {
     })
 }
 
-type Inputs = [f64; 17];
+/// Reads what is said in a scene of an epsilon: of `that` one, which a sentence before is about, or of one with a name.
+pub fn read_of_scene(line: &str, published: &[Published], that: f64) -> Sentence {
+    let rest = line
+        .strip_prefix("In this scene, for |d| = 1, ")
+        .unwrap_or_else(|| panic!("{line}"));
+    let (of_parallel, of_hits) = rest.split_once("; ").unwrap();
+    let (name, parallel_up_to) = if let Some(name) =
+        of_parallel.strip_suffix(" refuses every parallel ray")
+    {
+        (name, f64::INFINITY)
+    } else if let Some(name) = of_parallel.strip_suffix(" is not proved to refuse parallel rays") {
+        (name, 0.0)
+    } else {
+        let words = " is proved to refuse the parallel rays of triangles with edges up to ";
+        let (name, size) = of_parallel.split_once(words).unwrap();
+        (name, size.strip_suffix(" only").unwrap().parse().unwrap())
+    };
+    let epsilon = match name.strip_prefix("e = ") {
+        Some(name) => published.iter().find(|(it, _)| it == name).unwrap().1,
+        None => {
+            assert_eq!(name, "that epsilon", "{line}");
+            that.next_up()
+        }
+    };
+    let degrees = after(of_hits, "keeps every hit at ");
+    assert!(
+        degrees.is_some() || of_hits.starts_with("for no angle"),
+        "{line}"
+    );
+    Sentence {
+        says: Says::OfScene {
+            epsilon,
+            parallel_up_to,
+            degrees,
+        },
+        supposes: false,
+        text: line.to_owned(),
+    }
+}
+
+pub type Inputs = [f64; 17];
 
 /// A number of as many digits as a float of F has.
-fn float<F: Scalar>(x: f64) -> f64 {
+pub fn float<F: Scalar>(x: f64) -> f64 {
     F::from_f64(x).to_f64()
 }
 
@@ -160,7 +219,7 @@ fn vector<F: Scalar>(draw: &mut Draw, most: f64) -> [f64; 3] {
     [(); 3].map(|()| coordinate::<F>(draw, most))
 }
 
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
@@ -247,16 +306,20 @@ fn size_of(inputs: &Inputs, of: &str) -> f64 {
 }
 
 /// A drawn ray and what is exactly true of it.
-struct Drawn<F: Scalar> {
-    case: Case<F>,
+pub struct Drawn<F: Scalar> {
+    pub case: Case<F>,
     inputs: Inputs,
-    is_parallel: bool,
+    pub is_parallel: bool,
     /// Its line crosses the triangle, edges included, on a side that the kernel owes.
-    is_hit: bool,
+    pub is_hit: bool,
+    /// Of the angle between the ray and the plane, nearly.
+    pub sine: f64,
+    /// The triangle's longest edge, nearly.
+    pub longest: f64,
 }
 
 /// What a gate does with a ray, in floats and exactly.
-struct Asked {
+pub struct Asked {
     computed: f64,
     exact: Exact,
     /// The numbers that it compares, on the path that the floats take.
@@ -266,15 +329,23 @@ struct Asked {
 }
 
 /// A kernel, and everything that is proved of it.
-struct Proved<F: Scalar> {
-    entry: &'static Entry,
-    summary: Summary<F>,
+pub struct Proved<F: Scalar> {
+    pub entry: &'static Entry,
+    pub summary: Summary<F>,
     gated: &'static dyn Gated<F>,
 }
 
 impl<F: Searched + Scalar> Proved<F> {
+    pub fn new(entry: &'static Entry, summary: Summary<F>) -> Proved<F> {
+        Proved {
+            entry,
+            summary,
+            gated: F::subject(entry).unwrap().gated().unwrap(),
+        }
+    }
+
     /// What is true of a ray.
-    fn drawn(&self, inputs: Inputs) -> Drawn<F> {
+    pub fn drawn(&self, inputs: Inputs) -> Drawn<F> {
         let sample = Sample::of(&inputs.map(Exact::from_f64));
         let zero = Exact::zero();
         let volume = sample.volume();
@@ -285,16 +356,21 @@ impl<F: Searched + Scalar> Proved<F> {
                 .iter()
                 .all(|i| zero.is_at_most(&sample.weight(*i)))
         };
+        let [_, direction, edges @ ..] = vectors(&inputs);
+        let normal = cross(edges[0], edges[1]);
+        let volume: f64 = (0..3).map(|i| normal[i] * direction[i]).sum();
         Drawn {
             case: case_of(&inputs.map(F::from_f64)),
             inputs,
             is_parallel,
             is_hit: !is_parallel && is_owed && is_inside(),
+            sine: volume.abs() / length(normal) / length(direction),
+            longest: edges.map(length).into_iter().fold(0.0, f64::max),
         }
     }
 
     /// None if a gate is not asked.
-    fn ask(&self, drawn: &Drawn<F>, gate: usize) -> Option<Asked> {
+    pub fn ask(&self, drawn: &Drawn<F>, gate: usize) -> Option<Asked> {
         let computed = self.gated.measure(&drawn.case).margins[gate].to_f64();
         let exact = self.gated.measure_exact(&drawn.case).margins[gate].clone();
         let proof = &self.summary.proof;
@@ -355,7 +431,7 @@ fn divides_as_supposed(
 
 impl Sentence {
     /// False if a ray contradicts it; none if it says nothing of the ray.
-    fn holds<F: Searched + Scalar>(&self, drawn: &Drawn<F>, asked: &Asked) -> Option<bool> {
+    pub fn holds<F: Searched + Scalar>(&self, drawn: &Drawn<F>, asked: &Asked) -> Option<bool> {
         let Asked {
             computed,
             exact,
@@ -412,12 +488,44 @@ impl Sentence {
                 let is_near = all.any(|size| size.is_at_most(&bound));
                 (!is_near).then(|| (computed < 0.0) == exact.is_less(&zero))
             }
+            Says::OfScene {
+                epsilon,
+                parallel_up_to,
+                degrees,
+            } => {
+                let is_at = |degrees: f64| degrees.to_radians().sin() * ROUNDED < drawn.sine;
+                if drawn.is_parallel {
+                    (drawn.longest * ROUNDED < *parallel_up_to).then(|| computed < *epsilon)
+                } else if drawn.is_hit && degrees.is_some_and(is_at) {
+                    Some(*epsilon <= computed)
+                } else {
+                    None
+                }
+            }
         }
     }
 }
 
+/// More than what rounding to f64 adds to a sine or to a length.
+const ROUNDED: f64 = 1.0 + 1e-9;
+
+pub fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+pub fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| u[i] * v[j] - u[j] * v[i])
+}
+
+/// The origin, the direction, and the edges around the triangle, nearly.
+pub fn vectors(inputs: &Inputs) -> [[f64; 3]; 5] {
+    let point = |i: usize| -> [f64; 3] { inputs[i..i + 3].try_into().expect("three") };
+    let [origin, direction, a, b, c] = [0, 3, 6, 9, 12].map(point);
+    [origin, direction, minus(b, a), minus(c, b), minus(a, c)]
+}
+
 /// Epsilons of every size, at which it is asked what a gate does.
-fn published<F: Scalar>() -> Vec<Published> {
+pub fn published<F: Scalar>() -> Vec<Published> {
     let values = [1e-45, 1e-30, 1e-12, 1e-9, 1e-6, 1e-4, 0.01, 0.25];
     let values = values.into_iter().map(float::<F>).filter(|x| 0.0 < *x);
     values.map(|x| (format!("{x:e}"), x)).collect()
@@ -435,11 +543,7 @@ fn hold<F: Searched + Scalar>(entry: &'static Entry, rays: u64) -> Vec<(String, 
     };
     let mut sentences: Vec<(usize, Sentence, u64)> =
         summary.gates.iter().flat_map(of_gate).collect();
-    let proved = Proved {
-        entry,
-        summary,
-        gated: F::subject(entry).unwrap().gated().unwrap(),
-    };
+    let proved = Proved::new(entry, summary);
     for ray in 0..rays {
         let mut draw = Draw::new("sentences", 1, ray);
         let inputs = match ray % 3 {

@@ -61,11 +61,7 @@ struct FindingText {
 /// Reads expectations, without their lock file; `file` is their name in errors. Kernels may also be those of a
 /// record, which this process does not have.
 pub fn read(text: &str, file: &str, of_record: &[&str]) -> Result<Expectations, InputError> {
-    let reader = ExpectationsReader {
-        text,
-        file,
-        of_record,
-    };
+    let reader = ExpectationsReader::new(text, file, of_record);
     let version: Version = reader.parse()?;
     if version.schema.get_ref() != SCHEMA {
         let found = version.schema.get_ref();
@@ -110,11 +106,27 @@ const RENAMED: &str = " (of a renamed kernel, replace the name here and in the l
 
 struct ExpectationsReader<'a> {
     text: &'a str,
+    /// Where each line ends.
+    newlines: Vec<usize>,
     file: &'a str,
     of_record: &'a [&'a str],
+    /// The names of all families and strata.
+    families: Vec<&'static str>,
 }
 
-impl ExpectationsReader<'_> {
+impl<'a> ExpectationsReader<'a> {
+    fn new(text: &'a str, file: &'a str, of_record: &'a [&'a str]) -> ExpectationsReader<'a> {
+        let newlines = text.match_indices('\n').map(|(at, _)| at);
+        let families = FAMILIES.iter().chain(STRATA);
+        ExpectationsReader {
+            text,
+            newlines: newlines.collect(),
+            file,
+            of_record,
+            families: families.map(|family| family.name).collect(),
+        }
+    }
+
     fn parse<T: DeserializeOwned>(&self) -> Result<T, InputError> {
         toml::from_str(self.text).map_err(|error| {
             let message = error.message().replace('\n', "; ");
@@ -126,8 +138,7 @@ impl ExpectationsReader<'_> {
     }
 
     fn line(&self, span: &Range<usize>) -> usize {
-        let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
-        before.iter().filter(|byte| **byte == b'\n').count() + 1
+        self.newlines.partition_point(|at| *at < span.start) + 1
     }
 
     fn error(&self, span: &Range<usize>, message: impl Into<String>) -> InputError {
@@ -181,8 +192,6 @@ impl ExpectationsReader<'_> {
             url,
         } = spanned.get_ref();
         let kinds: Vec<&str> = FindingKind::FOUND.iter().map(|kind| kind.name()).collect();
-        let families = FAMILIES.iter().chain(STRATA);
-        let families: Vec<&str> = families.map(|family| family.name).collect();
         self.check(
             "scalar",
             (scalar.get_ref(), scalar.span()),
@@ -210,7 +219,7 @@ impl ExpectationsReader<'_> {
                     .split_once(':')
                     .filter(|(_, kind)| SceneKind::named(kind).is_some());
                 let name = of_kind.map_or(family.clone(), |(stratum, _)| stratum.to_owned());
-                self.check("family", (&name, spanned.span()), &families)?;
+                self.check("family", (&name, spanned.span()), &self.families)?;
             }
             let key = Key {
                 kernel: row.kernel.get_ref().clone(),

@@ -19,6 +19,9 @@ const FUSED: &str = "+fma";
 const FEWEST_HITS: usize = 50;
 /// The least share of them with the same values.
 const LEAST_SAME: f64 = 0.9;
+/// So many cases are compared before a formula is looked at again: most differ in so many values that the rest cannot make
+/// up for it.
+const BATCH: usize = 100;
 
 /// The answers of a formula beside a kernel's.
 struct FormulaBeside {
@@ -32,29 +35,43 @@ struct FormulaBeside {
 }
 
 impl FormulaBeside {
-    /// The answers of a formula to the cases nearby; none if it does not run in this scalar.
+    /// The answers of a formula to the cases nearby; none if it does not run in this scalar, or is not one to know the kernel by.
     fn named<F: Scalar>(name: &str, kernel: &Row, nearby: &Nearby<F>) -> Option<FormulaBeside> {
         let row = Row::named(name, None, &kernel.contract.words(None)).ok()?;
-        let answers = run(F::subject(row.entry)?, &nearby.drawn, &row);
+        let subject = F::subject(row.entry)?;
         let gives_uv = row.entry.info.gives.uv && kernel.entry.info.gives.uv;
+        let hits_of_kernel = nearby.answers.iter().filter(|it| it.hit).count();
         let mut beside = FormulaBeside {
             row,
             hits: 0,
             same: 0,
             agreed: 0,
         };
-        for (one, other) in nearby.answers.iter().zip(&answers) {
-            if one.hit == other.hit {
-                beside.agreed += 1;
+        let batches = nearby.drawn.chunks(BATCH);
+        for (cases, of_kernel) in batches.zip(nearby.answers.chunks(BATCH)) {
+            let answers = run(subject, cases, &beside.row);
+            for (one, other) in of_kernel.iter().zip(&answers) {
+                beside.add(one, other, gives_uv);
             }
-            if one.hit && other.hit {
-                beside.hits += 1;
-                if has_same_values(one, other, gives_uv) {
-                    beside.same += 1;
-                }
+            let most_same = hits_of_kernel - (beside.hits - beside.same);
+            if (most_same as f64) < LEAST_SAME * hits_of_kernel as f64 {
+                return None;
             }
         }
-        Some(beside)
+        beside.is_known().then_some(beside)
+    }
+
+    /// Counts the answers of both to a case.
+    fn add<F: Float>(&mut self, one: &Verdict<F>, other: &Verdict<F>, gives_uv: bool) {
+        if one.hit == other.hit {
+            self.agreed += 1;
+        }
+        if one.hit && other.hit {
+            self.hits += 1;
+            if has_same_values(one, other, gives_uv) {
+                self.same += 1;
+            }
+        }
     }
 
     /// True if the hits are enough to know the kernel by.
@@ -118,8 +135,8 @@ pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<ComputedF
     })
 }
 
-/// The formula with the most hits of the same values, if they are enough to know it by: a kernel's own, or the same with fused
-/// products.
+/// Of the formulas that a kernel can be known by, the one with the most hits of the same values: its own, or the same with
+/// fused products.
 fn nearest_formula<F: Scalar>(row: &Row, nearby: &Nearby<F>) -> Option<FormulaBeside> {
     if !row.entry.info.gives.t {
         return None;
@@ -132,8 +149,7 @@ fn nearest_formula<F: Scalar>(row: &Row, nearby: &Nearby<F>) -> Option<FormulaBe
             all.extend(FormulaBeside::named(&name, row, nearby));
         }
     }
-    let nearest = all.into_iter().max_by_key(|it| (it.same, it.agreed))?;
-    nearest.is_known().then_some(nearest)
+    all.into_iter().max_by_key(|it| (it.same, it.agreed))
 }
 
 /// The name of a formula: `moller-trumbore with fused products`.
