@@ -230,6 +230,48 @@ fn a_miss_that_is_told_as_a_t_is_named() {
     }
 }
 
+/// A mistake whose findings stand in the file of expectations is no reason for others.
+#[test]
+fn a_mistake_that_is_known_is_not_named_beside_a_new_one() {
+    let folder = scratch("relations-known");
+    let source = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/kernels/related.c");
+    let text = fs::read_to_string(source).unwrap();
+    let twice = text.replace("verdict->t = t;", "verdict->t = 2 * t;");
+    assert_ne!(text, twice);
+    let [known, new] = [("known", text), ("new", twice)].map(|(name, text)| {
+        let source = folder.join(format!("{name}.c"));
+        fs::write(&source, text).unwrap();
+        let name = format!("related-known-{name}");
+        library(&source, &name, &["-DMISTAKE=NOT_A_NUMBER"])
+    });
+    let (Some(known), Some(new)) = (known, new) else {
+        return;
+    };
+    let families = "outside,interior";
+    let check = [
+        "check",
+        "-q",
+        "-n",
+        "500",
+        "--family",
+        families,
+        "--kernel-lib",
+    ];
+    ends(&folder, &[&check[..], &[&known, "--bless"]].concat(), 0);
+    let said = flat(&ends(&folder, &[&check[..], &[&new]].concat(), 1).0);
+    assert!(said.starts_with("Worse: related, "), "{said}");
+    assert!(!said.contains("NaN"), "{said}");
+    // Without that file all is new.
+    let known = "it reports a miss as a hit with t = NaN";
+    fs::remove_file(folder.join("hairline.expectations.toml")).unwrap();
+    fs::remove_file(folder.join("hairline.expectations.toml.lock")).unwrap();
+    let said = flat(&ends(&folder, &[&check[..], &[&new]].concat(), 1).0);
+    assert!(
+        said.starts_with(&format!("Wrong: related: {known}")),
+        "{said}"
+    );
+}
+
 #[test]
 fn the_count_of_a_relation_is_that_of_the_record_also_from_shards() {
     let folder = scratch("relations-record");

@@ -21,8 +21,8 @@ struct Answer<F> {
 
 /// The gate of a formula with another epsilon at which it explains every answer of a kernel nearby: `parallel between 9.8e-5 and
 /// 1.04e-4 in place of 1e-6`; none if its own epsilons do, if one other epsilon does not, or if the epsilon is one that the
-/// kernel declares or that another formula publishes for that gate. Where the kernel, in its row, names an epsilon as the
-/// formula does, its value counts.
+/// kernel declares or that another formula publishes for that gate; nor where the kernel has a gate for t and the formula has
+/// none. Where the kernel, in its row, names an epsilon as the formula does, its value counts.
 pub(super) fn other_epsilon<F: Scalar>(
     row: &Row,
     formula: &Row,
@@ -31,6 +31,12 @@ pub(super) fn other_epsilon<F: Scalar>(
     let gated = F::subject(formula.entry)?.gated()?;
     let gates = formula.entry.info.gates;
     let declared: Vec<Named<F>> = tunable(row);
+    // What the kernel's own gate of t refuses, another gate of the formula would seem to.
+    let is_lacking =
+        |named: &Named<F>| is_of_t(named.gate) && gates.iter().all(|gate| gate.name != named.gate);
+    if declared.iter().any(is_lacking) {
+        return None;
+    }
     let mut epsilons: Vec<F> = formula.epsilons();
     for (gate, epsilon) in gates.iter().zip(&mut epsilons) {
         if let Some(named) = declared.iter().find(|named| named.gate == gate.name) {
@@ -73,6 +79,12 @@ pub(super) fn other_epsilon<F: Scalar>(
 struct Named<F> {
     gate: &'static str,
     epsilon: F,
+}
+
+/// True if a built-in formula has a gate of this name for t.
+fn is_of_t(gate: &str) -> bool {
+    let mut gates = KERNELS.iter().flat_map(|entry| entry.info.gates);
+    gates.any(|it| it.name == gate && it.role == Role::T)
 }
 
 /// The epsilons of a row that can be chosen.

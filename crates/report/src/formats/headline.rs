@@ -71,7 +71,10 @@ fn worse(record: &Record, conformance: &Conformance) -> String {
     if let Some(failure) = unexpected.iter().find(|found| found.finding.is_failure()) {
         return format!("{lead}: {}", failing(unexpected, failure));
     }
-    if let Some(mistake) = relations::mistakes(record).into_iter().next() {
+    if let Some(mistake) = relations::new_mistakes(record, conformance)
+        .into_iter()
+        .next()
+    {
         return format!("{lead}: {mistake}");
     }
     let [more, fewer] = conformance.more_and_fewer();

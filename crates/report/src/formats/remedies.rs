@@ -36,7 +36,7 @@ pub(super) fn remedies(record: &Record, conformance: &Conformance) -> Vec<Item> 
             failed.finding
         ));
     }
-    if !relations::mistakes(record).is_empty() {
+    if !relations::new_mistakes(record, conformance).is_empty() {
         texts.push(
             "Mend the mistake that is named above first: what else changed may go with it."
                 .to_owned(),
@@ -65,7 +65,8 @@ fn computed(computed: &ComputedFormula) -> String {
     let ComputedFormula { kernel, set, .. } = computed;
     let advice = match (&computed.epsilon, computed.is_fused) {
         (Some(_), _) => format!(
-            "put the epsilon back, or, if it is meant, {ACCEPT}; a kernel that declares its epsilon has it named by the report."
+            "put the epsilon back, or, if it is meant, {ACCEPT}. If you changed no epsilon, look for flags of the compiler that \
+             change sums or flush subnormal numbers to zero (-ffast-math, /fp:fast)."
         ),
         (None, _) => format!(
             "compile it with -ffp-contract=off (GCC, Clang), /fp:precise (MSVC) or -fmad=false (nvcc). If your product \

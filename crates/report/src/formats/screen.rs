@@ -227,7 +227,10 @@ fn of_one(row: &Standing, columns: &[Column], cases: u64) -> Vec<String> {
     if let Some([leaks, rays]) = row.leaks() {
         let rays = group_digits(rays);
         sentences.push(match leaks {
-            0 => format!("{label}: no leak seen in {rays} rays at shared edges and vertices."),
+            0 => format!(
+                "{label}: no leak seen in {rays} rays at shared edges and vertices{}.",
+                at_extremes(row)
+            ),
             _ => format!(
                 "{label} leaks: {} of {rays} rays at shared edges and vertices hit nothing.",
                 group_digits(leaks)
@@ -263,6 +266,18 @@ fn of_one(row: &Standing, columns: &[Column], cases: u64) -> Vec<String> {
         .collect();
     sentences.push(format!("By size: {}.", by_size.join(", ")));
     sentences
+}
+
+/// The leaks that a row has at no ordinary sizes: `; 2,004 of 13,547 leak next to noise or at extreme exponents`.
+fn at_extremes(row: &Standing) -> String {
+    match row.extreme_leaks() {
+        [0, _] => String::new(),
+        [leaks, rays] => format!(
+            "; {} of {} leak next to noise or at extreme exponents",
+            group_digits(leaks),
+            group_digits(rays)
+        ),
+    }
 }
 
 /// The cases of a record in some columns but for those of extreme exponents, in all scalars.

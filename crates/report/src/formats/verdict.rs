@@ -99,7 +99,7 @@ pub(super) fn blocks(record: &Record, conformance: &Conformance) -> Vec<Block> {
 fn reasons(record: &Record, conformance: &Conformance) -> Vec<String> {
     let mut texts = Vec::new();
     if !conformance.unexpected.is_empty() {
-        let mistakes = relations::sentences(record).into_iter();
+        let mistakes = relations::new_sentences(record, conformance).into_iter();
         texts.extend(mistakes.map(|mistake| format!("{mistake}.")));
         let computes = conformance.computes.iter();
         texts.extend(computes.map(|it| format!("{} ({}): {it}.", it.kernel, it.set)));
@@ -109,7 +109,7 @@ fn reasons(record: &Record, conformance: &Conformance) -> Vec<String> {
         let classes = number_of(conformance.unexpected.len() as u64, "class", "classes");
         texts.push(format!(
             "Fewer answers are wrong in total. The check fails because {classes} of cases have more, or other, wrong answers \
-             than known: some that were right are wrong now."
+             than known: some that were right, or wrong in another way, are wrong in this way now."
         ));
     }
     texts.extend(conformance.note.clone());

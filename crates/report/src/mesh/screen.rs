@@ -116,10 +116,21 @@ fn verdict(result: &ResultPart, mesh: &MeshPart, rows: &[MeshRow<'_>]) -> (Tone,
         "of {aimed} aimed at its edges and vertices{}",
         not_asked(mesh)
     );
+    let doubles = rows.iter().map(|row| row.both(|across| &across.doubles));
+    let most = doubles.filter_map(|rate| rate.rate).fold(0.0, f64::max);
+    let twice = if 0.0 < most {
+        let share = percent(most);
+        let up_to = if rows.len() == 1 { "" } else { "up to " };
+        format!(
+            "; but {up_to}{share} of them hit it twice or more: counted crossings are wrong there"
+        )
+    } else {
+        String::new()
+    };
     let title = match (leaking, rows.len()) {
         _ if rays == 0 => format!("Nothing to ask of {file}"),
-        (0, 1) => format!("No ray slips through {file}, {of}"),
-        (0, n) => format!("No ray slips through {file} with {n} kernel rows, {of}"),
+        (0, 1) => format!("No ray slips through {file}, {of}{twice}"),
+        (0, n) => format!("No ray slips through {file} with {n} kernel rows, {of}{twice}"),
         (1, 1) => format!("Rays slip through {file}"),
         (k, n) => format!("Rays slip through {file} with {k} of {n} kernel rows"),
     };
