@@ -38,6 +38,11 @@ pub(super) fn push<F: Float>(bytes: &mut Vec<u8>, value: F) {
     bytes.extend_from_slice(&value.to_bits().to_le_bytes()[..size_of::<F>()]);
 }
 
+/// Writes a number into bytes of its size.
+pub(super) fn write<F: Float>(bytes: &mut [u8], value: F) {
+    bytes.copy_from_slice(&value.to_bits().to_le_bytes()[..size_of::<F>()]);
+}
+
 /// A number from its bytes.
 pub(super) fn float<F: Float>(bytes: &[u8]) -> F {
     let mut bits = [0; 8];
