@@ -135,8 +135,8 @@ pub fn misused_formula<F: Scalar>(case: &Case<F>, row: &Row) -> Option<ComputedF
     })
 }
 
-/// Of the formulas that a kernel can be known by, the one with the most hits of the same values: its own, or the same with
-/// fused products.
+/// The formula with the most hits of the same values, among those that a kernel can be known by: its own, or the same with fused
+/// products.
 fn nearest_formula<F: Scalar>(row: &Row, nearby: &Nearby<F>) -> Option<FormulaBeside> {
     if !row.entry.info.gives.t {
         return None;
