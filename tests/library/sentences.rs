@@ -495,7 +495,7 @@ impl Sentence {
             } => {
                 let is_at = |degrees: f64| degrees.to_radians().sin() * ROUNDED < drawn.sine;
                 if drawn.is_parallel {
-                    (drawn.longest * ROUNDED < *parallel_up_to).then(|| computed < *epsilon)
+                    (drawn.longest * ROUNDED < *parallel_up_to).then_some(computed < *epsilon)
                 } else if drawn.is_hit && degrees.is_some_and(is_at) {
                     Some(*epsilon <= computed)
                 } else {
