@@ -71,10 +71,11 @@ fn unsteady(plan: &Plan, result: &ResultPart, conformance: &mut Conformance) -> 
         let is_other = || {
             let again = run(&plan, Shard::of_index(place.index, count));
             let again = findings(&again, &key);
-            let is_other = match shows_it {
-                true => again.is_empty(),
+            let is_other = if shows_it {
+                again.is_empty()
+            } else {
                 // Another triangle of the group may have the finding still.
-                false => has(&again, place),
+                has(&again, place)
             };
             // What a kernel says that was given up is nothing.
             is_other && plugins::check().is_ok()

@@ -1,7 +1,7 @@
 //! GitHub Actions: annotations on the run, and its summary, when the program runs there.
 
 use super::exit::Failure;
-use crate::record::{Conformance, Deviation, Record, Unproved};
+use crate::record::{ComparisonVerdict, Conformance, Deviation, Record, Unproved};
 use crate::report::Style;
 use crate::report::page::{MARKDOWN_LIMIT, Paged, markdown_within};
 use std::fs::{self, File};
@@ -15,9 +15,14 @@ const MOST_ANNOTATIONS: usize = 10;
 pub fn announce(record: &Record) -> Result<(), Failure> {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     if let (Some(_), Some(conformance)) = (set("GITHUB_ACTIONS"), &record.conformance) {
-        annotations(conformance)
-            .iter()
-            .for_each(|line| eprintln!("{line}"));
+        if conformance.verdict != ComparisonVerdict::Conforms {
+            // The first line of the screen, whatever else has no room.
+            let title = record.page().title;
+            eprintln!("::error title=hairline::{}", data(&title));
+        }
+        for line in annotations(conformance) {
+            eprintln!("{line}");
+        }
     }
     match set("GITHUB_STEP_SUMMARY") {
         Some(file) => append(&file, record).map_err(|error| Failure::of_file(&file, &error)),

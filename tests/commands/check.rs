@@ -1236,11 +1236,12 @@ fn on_github_deviations_are_annotated_and_the_summary_is_appended() {
     let error = String::from_utf8(output.stderr).unwrap();
     assert!(
         error.starts_with(&format!(
-            "::error file={FILE},line=15,title=hairline%3A unexpected disagreement::moller-trumbore"
+            "::error title=hairline::Worse: moller-trumbore, 1 wrong answer more than known\n::error \
+             file={FILE},line=15,title=hairline%3A unexpected disagreement::moller-trumbore"
         )),
         "{error}"
     );
-    assert_eq!(error.lines().count(), 1, "{error}");
+    assert_eq!(error.lines().count(), 2, "{error}");
     let text = fs::read_to_string(&summary).unwrap();
     assert!(
         text.starts_with("before\n## Worse: moller-trumbore, 1 wrong answer more than known\n"),

@@ -123,7 +123,7 @@ fn the_readme_says_what_is_proved_and_known() {
     let (_, known) = bound.split_once("; ").unwrap();
     let readme = words(include_str!("../../README.md"));
     let sentence = format!(
-        "never wrong by more than {}, and {} is known",
+        "never wrong by more than {}, and a ray is known on which it is wrong by {}.",
         number(bound),
         number(known)
     );

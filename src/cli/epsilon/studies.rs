@@ -231,6 +231,6 @@ fn fault(entry: &Entry, error: String) -> Failure {
     let name = entry.info.name;
     Failure::bad_input(format!(
         "kernel '{name}': its epsilons do not each act alone, or its answers are not a function of the case and \
-         the epsilons: {error}. Raising an epsilon must only refuse more, whatever the others are"
+         the epsilons: {error}. Raising an epsilon must only refuse more, whatever the others are: a tolerance at edges is declared as a negative one"
     ))
 }

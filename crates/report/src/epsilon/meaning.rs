@@ -71,10 +71,10 @@ pub(super) fn meaning(
             Some(match (value < 0.0, record.has_scene()) {
                 (true, true) => format!(
                     "rays up to {most}{unit} beside a triangle of {largest}{unit} hit it ({size} of any triangle's size; corners: \
-                     twice); so both faces of an edge are hit"
+                     twice); so both triangles of an edge are hit"
                 ),
                 (true, false) => format!(
-                    "rays up to {size} of a triangle's size beside it hit it (corners: twice); so both faces of an edge are hit"
+                    "rays up to {size} of a triangle's size beside it hit it (corners: twice); so both triangles of an edge are hit"
                 ),
                 (false, true) => format!(
                     "rays up to {most}{unit} inside a triangle of {largest}{unit} miss it ({size} of any triangle's size)"

@@ -119,7 +119,7 @@ fn in_words(cause: Option<Attribution>, shows_gates: bool) -> String {
         (Some(cause), _) => return cause.describe(),
         (None, true) => "it does not run in exact arithmetic",
         (None, false) => {
-            "it does not show its formula, and has no epsilons at which it could be run otherwise"
+            "it does not show its formula, and declares no epsilons at which it could be run otherwise (docs/guide/own-kernel.md)"
         }
     };
     format!("cannot be told: {why_not}")

@@ -172,7 +172,7 @@ fn others(record: &Record, columns: &[Column], lines: &[&RowLine]) -> Vec<String
     let is_alone = lines.len() == 1;
     let mut all = Vec::new();
     if lines.iter().any(|line| is_untold(line)) {
-        let why = "no causes: it does not show its formula, and has no epsilons at which it could be run otherwise";
+        let why = "no causes: it does not show its formula, and declares no epsilons at which it could be run otherwise (docs/guide/own-kernel.md)";
         all.push(why.to_owned());
     }
     // Hits of the triangle that a ray leaves are no promise's, unless they are false hits.
