@@ -405,6 +405,41 @@ fn fused_products_and_another_epsilon_are_found_by_value() {
     }
 }
 
+/// A kernel that loses every hit, and then only some: a triangle of a pair is right now, and the other one is not.
+#[test]
+fn another_triangle_of_a_group_that_is_wrong_still_is_no_other_answer() {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join("examples/c/moller_trumbore.c")).unwrap();
+    let folder = scratch("relations-group");
+    let hit = "verdict->hit = 1;";
+    let [all, some] = ["0", "u < v"].map(|hits| {
+        let name = format!("hits-{}", hits.len());
+        let source = folder.join(format!("{name}.c"));
+        fs::write(
+            &source,
+            text.replace(hit, &format!("verdict->hit = {hits};")),
+        )
+        .unwrap();
+        library(&source, &name, &[])
+    });
+    let (Some(all), Some(some)) = (all, some) else {
+        return;
+    };
+    let plan = [
+        "check",
+        "-q",
+        "-n",
+        "400",
+        "--family",
+        "shared-edge",
+        "--kernel-lib",
+    ];
+    ends(&folder, &[&plan[..], &[&all, "--bless"]].concat(), 0);
+    let said = flat(&ends(&folder, &[&plan[..], &[&some, "--details"]].concat(), 1).0);
+    assert!(said.starts_with("Mixed: "), "{said}");
+    assert!(!said.contains("depends on the cases"), "{said}");
+}
+
 /// The same source, whose products a compiler fuses into sums.
 #[cfg(target_arch = "x86_64")]
 fn fused_products_are_found(folder: &Path, source: &Path) {
