@@ -227,14 +227,7 @@ fn hold<F: Searched + Scalar>(entry: &'static Entry, words: &str) -> [usize; 2] 
             let Some(holds) = sentence.holds(&drawn, asked) else {
                 continue;
             };
-            assert!(
-                holds,
-                "{} {}: {}\n{}",
-                entry.info.name,
-                F::NAME,
-                sentence.text,
-                drawn.case.hex()
-            );
+            proved.assert_holds(holds, sentence, &drawn);
             *times += 1;
         }
     }

@@ -369,6 +369,18 @@ impl<F: Searched + Scalar> Proved<F> {
         }
     }
 
+    /// Fails with the sentence and the ray that contradicts it.
+    pub fn assert_holds(&self, holds: bool, sentence: &Sentence, drawn: &Drawn<F>) {
+        assert!(
+            holds,
+            "{} {}: {}\n{}",
+            self.entry.info.name,
+            F::NAME,
+            sentence.text,
+            drawn.case.hex()
+        );
+    }
+
     /// None if a gate is not asked.
     pub fn ask(&self, drawn: &Drawn<F>, gate: usize) -> Option<Asked> {
         let computed = self.gated.measure(&drawn.case).margins[gate].to_f64();
@@ -570,14 +582,7 @@ fn hold<F: Searched + Scalar>(entry: &'static Entry, rays: u64) -> Vec<(String, 
             let Some(holds) = asked.as_ref().and_then(|it| sentence.holds(drawn, it)) else {
                 continue;
             };
-            assert!(
-                holds,
-                "{} {}: {}\n{}",
-                entry.info.name,
-                F::NAME,
-                sentence.text,
-                drawn.case.hex()
-            );
+            proved.assert_holds(holds, sentence, drawn);
             *times += 1;
         }
     }

@@ -183,11 +183,7 @@ fn is_left_out(plan: &PlanPart, key: &Key) -> bool {
 
 /// How much harm a disagreement does: cases without a verdict are worst, then what has the most cases more than expected.
 fn harm(found: &Deviation) -> (bool, u64) {
-    let expected = found.expected_count.unwrap_or(0);
-    (
-        found.finding.is_failure(),
-        found.found.count.saturating_sub(expected),
-    )
+    (found.finding.is_failure(), found.more_than_known())
 }
 
 /// The probability at each end of each interval.

@@ -175,6 +175,12 @@ pub struct Deviation {
 }
 
 impl Deviation {
+    /// How many wrong answers there are more than known; all of them where no number is known.
+    pub fn more_than_known(&self) -> u64 {
+        let known = self.expected_count.unwrap_or_default();
+        self.found.count.saturating_sub(known)
+    }
+
     /// The key of the class that deviates.
     pub fn key(&self) -> Key {
         Key {

@@ -116,12 +116,7 @@ fn failing(unexpected: &[Deviation], first: &Deviation) -> String {
     let of_kind = unexpected
         .iter()
         .filter(|found| found.finding == first.finding && found.kernel == first.kernel);
-    let more: u64 = of_kind
-        .map(|found| {
-            let known = found.expected_count.unwrap_or_default();
-            found.found.count.saturating_sub(known)
-        })
-        .sum();
+    let more: u64 = of_kind.map(Deviation::more_than_known).sum();
     let does = match first.finding {
         FindingKind::Crash => "crashes",
         FindingKind::Panic => "panics",

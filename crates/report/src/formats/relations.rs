@@ -48,12 +48,7 @@ fn is_new(conformance: &Conformance, row: &RowPart, related: &Related) -> bool {
     let of_row = |found: &&Deviation| (&found.kernel, &found.set) == (&row.kernel, &row.set);
     let unexpected = conformance.unexpected.iter().filter(of_row);
     let made = unexpected.filter(|found| makes(related.relation, found));
-    let more: u64 = made
-        .map(|found| {
-            let known = found.expected_count.unwrap_or(0);
-            found.found.count.saturating_sub(known)
-        })
-        .sum();
+    let more: u64 = made.map(Deviation::more_than_known).sum();
     related.count <= 2 * more
 }
 
